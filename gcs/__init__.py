@@ -1,0 +1,1 @@
+"""The ground station: command line, links, transfers, swarm operations, logs and reports."""

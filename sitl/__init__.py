@@ -1,0 +1,1 @@
+"""Simulated fixed-wing aircraft: dynamics, guidance, formation law and their MAVLink and Zenoh faces."""

@@ -1,0 +1,11 @@
+"""Flight modes, numbered as ArduPlane's custom_mode."""
+
+from enum import IntEnum
+
+
+class Mode(IntEnum):
+    """The modes an endpoint has. It starts in MANUAL, in which it stays on its launcher."""
+
+    MANUAL = 0
+    AUTO = 10
+    LOITER = 12

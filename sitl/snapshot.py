@@ -1,0 +1,46 @@
+"""What a vehicle's services may know of it at one tick: plain values, taken under the vehicle's lock."""
+
+from dataclasses import dataclass
+
+from sitl.modes import Mode
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """State of one simulated vehicle. SI units; local frame (x east, y north, z above the datum); angles in radians.
+
+    Attributes:
+        time_s: simulated time since the swarm's clock was released (tick times 0.04 s).
+        mode, armed, airborne: flight state; airborne from launch on.
+        position_m: (x, y, z).
+        ground_velocity_m_s: (east, north, up).
+        airspeed_m_s, climb_angle, heading: V, gamma and chi of the air velocity; heading anticlockwise from +x.
+        bank: phi, positive turning left (towards growing chi).
+        thrust_fraction: thrust over the most there is at this airspeed, 0 to 1.
+        wind_m_s: (east, north, up), gusts included.
+        airspeed_wanted_m_s: the current leg's DO_CHANGE_SPEED value.
+        current_seq: mission item being flown (0 before launch).
+        mission_complete: the last waypoint has been reached; the vehicle loiters at the end of its mission.
+        cross_track_m, altitude_error_m, along_track_m: e_n (positive left), e_h and the deviation e = s - s_ref.
+        distance_to_waypoint_m: along the path to the current item.
+    """
+
+    time_s: float
+    mode: Mode
+    armed: bool
+    airborne: bool
+    position_m: tuple[float, float, float]
+    ground_velocity_m_s: tuple[float, float, float]
+    airspeed_m_s: float
+    climb_angle: float
+    heading: float
+    bank: float
+    thrust_fraction: float
+    wind_m_s: tuple[float, float, float]
+    airspeed_wanted_m_s: float
+    current_seq: int
+    mission_complete: bool
+    cross_track_m: float
+    altitude_error_m: float
+    along_track_m: float
+    distance_to_waypoint_m: float
