@@ -9,7 +9,7 @@ from typing import NamedTuple
 GRAVITY_M_S2 = 9.80665
 """Standard gravity (ISO 80000-3)."""
 AIR_DENSITY_KG_M3 = 1.225
-"""Constant sea-level density (ISA). Skein's heights of up to 4 km would lose up to a third of it; stated, not modelled."""
+"""Constant sea-level density (ISA). At 4 km there is a third less; stated, not modelled."""
 
 
 class Airframe(NamedTuple):
@@ -26,6 +26,7 @@ class Airframe(NamedTuple):
     static_thrust_n: float
     airspeed_min_m_s: float
     airspeed_max_m_s: float
+    airspeed_cruise_m_s: float
     climb_rate_min_m_s: float
     climb_rate_max_m_s: float
     load_factor_max: float
@@ -44,7 +45,9 @@ def drag_n(airspeed_m_s: float, lift_n: float, airframe: Airframe) -> float:
     """Drag D = q S (C_D0 + k C_L^2) in newtons (MODEL, section 5)."""
     qs = dynamic_pressure_area(airspeed_m_s, airframe)
     lift_coefficient = lift_n / qs
-    return qs * (airframe.drag_coefficient_zero_lift + airframe.induced_drag_factor * lift_coefficient * lift_coefficient)
+    return qs * (
+        airframe.drag_coefficient_zero_lift + airframe.induced_drag_factor * lift_coefficient * lift_coefficient
+    )
 
 
 def thrust_max_n(airspeed_m_s: float, airframe: Airframe) -> float:

@@ -16,7 +16,10 @@ def as_float32(value: float) -> float:
         return float("inf") if value > 0 else float("-inf")
 
 
-_PLAIN_FRAMES = {int(Frame.GLOBAL_INT): int(Frame.GLOBAL), int(Frame.GLOBAL_RELATIVE_ALT_INT): int(Frame.GLOBAL_RELATIVE_ALT)}
+_PLAIN_FRAMES = {
+    int(Frame.GLOBAL_INT): int(Frame.GLOBAL),
+    int(Frame.GLOBAL_RELATIVE_ALT_INT): int(Frame.GLOBAL_RELATIVE_ALT),
+}
 
 
 @dataclass(frozen=True)

@@ -78,4 +78,5 @@ def ground_heights_m(x_m: FloatArray, y_m: FloatArray, terrain: Terrain) -> Floa
     x, y = x_m / 1000.0, y_m / 1000.0
     r = np.hypot(x, y)
     wave = np.sin(y + a) + b * np.sin(x) + c * np.cos(d * r) + e * np.cos(x) + f * np.sin(f * r) + g * np.cos(y)
-    return np.maximum(height, amplitude_m * wave)
+    highest: FloatArray = np.maximum(height, amplitude_m * wave)
+    return highest

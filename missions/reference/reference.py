@@ -1,0 +1,219 @@
+"""Where a vehicle should be at each moment: path, altitude and schedule of one mission."""
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from missions.airframe import GRAVITY_M_S2, Airframe
+from missions.commands import Command, Frame
+from missions.errors import InputError
+from missions.frame import LocalFrame
+from missions.mission import Mission, MissionItem
+from missions.reference.path import FilletedPath, fillet
+from missions.reference.smoothing import moving_average, quadratics_at
+from missions.reference.wind_triangle import ground_speed_on_track
+
+FloatArray = npt.NDArray[np.float64]
+
+FILLET_BANK = math.radians(25.0)
+"""Bank at which the fastest leg's ground speed flies the fillets."""
+ALTITUDE_WINDOW_M = 120.0
+SCHEDULE_WINDOW_S = 8.0
+SAME_PLACE_M = 1.0
+"""A loiter this close to the waypoint before it is flown around that waypoint."""
+
+
+class ReferenceTables(NamedTuple):
+    """The reference as tables for the compiled core; arrays there, lists of tuples in an endpoint.
+
+    Attributes:
+        segments: (n, 5) of `missions.reference.path`.
+        altitude: (m, 4) quadratic pieces of z over arc length.
+        schedule: (k, 4) quadratic pieces of s_ref over time.
+        airspeeds: (l, 2) arc length from which an airspeed is commanded, and that airspeed.
+        length_m, duration_s: of the whole.
+    """
+
+    segments: Any
+    altitude: Any
+    schedule: Any
+    airspeeds: Any
+    length_m: float
+    duration_s: float
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A mission's path, altitude and schedule.
+
+    Attributes:
+        path: the filleted polyline in the plane.
+        altitude: quadratic pieces (m, 4) of z over horizontal arc length.
+        schedule: quadratic pieces (k, 4) of arc length over time since launch.
+        duration_s: planned time from launch to arrival.
+        corner_seq: mission item of each corner (0 is home).
+        corner_time_s: planned time of passing each corner.
+        leg_airspeed_m_s, leg_ground_speed_m_s: (legs,) commanded airspeed, and scheduled horizontal ground speed.
+        leg_slope: (legs,) dz/ds of each leg.
+        target_m: (x, y, z) of the last corner.
+        loiter_radius_m: of the loiter at the end; positive turns clockwise (MAVLink).
+        loiter_z_m: its altitude above the datum.
+    """
+
+    path: FilletedPath
+    altitude: FloatArray
+    schedule: FloatArray
+    duration_s: float
+    corner_seq: tuple[int, ...]
+    corner_time_s: FloatArray
+    leg_airspeed_m_s: FloatArray
+    leg_ground_speed_m_s: FloatArray
+    leg_slope: FloatArray
+    target_m: tuple[float, float, float]
+    loiter_radius_m: float
+    loiter_z_m: float
+
+    @property
+    def length_m(self) -> float:
+        """Horizontal arc length."""
+        return self.path.length_m
+
+    @property
+    def target_heading(self) -> float:
+        """Heading of the last leg, which the target's plane is normal to."""
+        return float(self.path.segments[-1, 3])
+
+    def points(self, s_m: FloatArray) -> FloatArray:
+        """Positions (..., 3) at arc lengths (...)."""
+        x, y, _, _ = self.path.at(s_m)
+        z, _ = quadratics_at(s_m, self.altitude)
+        return np.stack([x, y, z], axis=-1)
+
+    def arc_lengths(self, t_s: FloatArray) -> FloatArray:
+        """s_ref(t) at times (...); past the arrival it goes on at the last speed."""
+        return quadratics_at(t_s, self.schedule)[0]
+
+    def positions(self, t_s: FloatArray) -> FloatArray:
+        """ref(t) = path(s_ref(t)): planned positions (..., 3) at times (...) since launch."""
+        return self.points(self.arc_lengths(t_s))
+
+    def tables(self) -> ReferenceTables:
+        """The reference for an endpoint, as lists of tuples."""
+        starts = self.path.corner_s_m[:-1]
+        return ReferenceTables(
+            segments=[tuple(row) for row in self.path.segments.tolist()],
+            altitude=[tuple(row) for row in self.altitude.tolist()],
+            schedule=[tuple(row) for row in self.schedule.tolist()],
+            airspeeds=list(zip(starts.tolist(), self.leg_airspeed_m_s.tolist(), strict=True)),
+            length_m=self.length_m,
+            duration_s=self.duration_s,
+        )
+
+
+def build_reference(
+    mission: Mission, frame: LocalFrame, airframe: Airframe, forecast_wind_m_s: tuple[float, float]
+) -> Reference:
+    """Build the reference of a mission from what the wire carries of it (MODEL, section 6).
+
+    The path starts at home (item 0), goes through every NAV_WAYPOINT and ends at the last one or at the first
+    NAV_LOITER_UNLIM. DO_CHANGE_SPEED items set the legs' airspeeds from there on; the forecast wind turns them into
+    ground speeds. NAV_TAKEOFF has no place of its own: the aircraft is launched along the first leg.
+
+    Raises:
+        InputError: the mission has no way to fly, or a leg cannot be flown against the forecast wind.
+    """
+    corners: list[tuple[float, float, float]] = [_position(mission.home, mission, frame)]
+    seqs = [0]
+    airspeeds: list[float] = []
+    leg_airspeed, leg_is_ground_speed = airframe.airspeed_cruise_m_s, False
+    is_ground_speed: list[bool] = []
+    loiter: MissionItem | None = None
+    for seq, item in enumerate(mission.items[1:], start=1):
+        if item.command == Command.DO_CHANGE_SPEED:
+            if item.param2 > 0:
+                leg_airspeed, leg_is_ground_speed = item.param2, item.param1 == 1
+            elif item.param2 == -2:
+                leg_airspeed, leg_is_ground_speed = airframe.airspeed_cruise_m_s, False
+            continue
+        if item.command not in (Command.NAV_WAYPOINT, Command.NAV_LOITER_UNLIM):
+            continue
+        position = _position(item, mission, frame)
+        if item.command == Command.NAV_LOITER_UNLIM:
+            loiter = item
+        if loiter is None or math.dist(position[:2], corners[-1][:2]) >= SAME_PLACE_M:
+            corners.append(position)
+            seqs.append(seq)
+            airspeeds.append(leg_airspeed)
+            is_ground_speed.append(leg_is_ground_speed)
+        if loiter is not None:
+            break
+    points = np.array(corners)
+    if len(points) < 2 or np.ptp(points[:, :2], axis=0).max() < SAME_PLACE_M:
+        raise InputError("mission: no waypoint away from home; add a NAV_WAYPOINT")
+
+    def speeds(path: FilletedPath) -> tuple[FloatArray, FloatArray]:
+        """(ground speed, slope) of each leg."""
+        arc = np.maximum(np.diff(path.corner_s_m), 1e-9)
+        slope = np.where(arc > SAME_PLACE_M, np.diff(points[:, 2]) / arc, 0.0)
+        legs = np.diff(points[:, :2], axis=0)
+        result = []
+        for i, (dx, dy) in enumerate(legs):
+            if is_ground_speed[i]:
+                result.append(airspeeds[i])
+                continue
+            try:
+                result.append(ground_speed_on_track(airspeeds[i], slope[i], math.atan2(dy, dx), forecast_wind_m_s))
+            except ValueError as error:
+                raise InputError(f"mission item {seqs[i + 1]}: {error}") from None
+        return np.array(result), slope
+
+    # The radius follows from the ground speeds, and they, through the slopes, weakly from the arcs: correct once.
+    ground_speed, slope = speeds(fillet(points[:, :2], 0.0))
+    path = fillet(points[:, :2], fillet_radius_m(float(ground_speed.max())))
+    ground_speed, slope = speeds(path)
+
+    arc = np.diff(path.corner_s_m)
+    corner_time = np.concatenate([[0.0], np.cumsum(arc / ground_speed)])
+    duration = float(corner_time[-1])
+    apart = np.concatenate([[True], arc > 0.0])
+    schedule = moving_average(corner_time[apart], path.corner_s_m[apart], SCHEDULE_WINDOW_S)
+    ends, _ = quadratics_at(np.array([0.0, duration]), schedule)
+    schedule[:, 1] -= ends[0]
+    schedule[:, 1:] *= path.length_m / (ends[1] - ends[0])
+
+    return Reference(
+        path=path,
+        altitude=moving_average(path.corner_s_m[apart], points[apart, 2], ALTITUDE_WINDOW_M),
+        schedule=schedule,
+        duration_s=duration,
+        corner_seq=tuple(seqs),
+        corner_time_s=corner_time,
+        leg_airspeed_m_s=np.array(airspeeds),
+        leg_ground_speed_m_s=ground_speed,
+        leg_slope=slope,
+        target_m=corners[-1],
+        loiter_radius_m=_loiter_radius_m(loiter, float(ground_speed.max())),
+        loiter_z_m=_position(loiter, mission, frame)[2] if loiter is not None else corners[-1][2],
+    )
+
+
+def fillet_radius_m(ground_speed_m_s: float) -> float:
+    """Radius of the arc that a ground speed flies at `FILLET_BANK`."""
+    return ground_speed_m_s**2 / (GRAVITY_M_S2 * math.tan(FILLET_BANK))
+
+
+def _loiter_radius_m(loiter: MissionItem | None, ground_speed_m_s: float) -> float:
+    """Radius of the final loiter: the item's own (param3), but never tighter than the fillets."""
+    least = fillet_radius_m(ground_speed_m_s)
+    wanted = loiter.param3 if loiter is not None and math.isfinite(loiter.param3) else 0.0
+    return math.copysign(max(abs(wanted), least), wanted)
+
+
+def _position(item: MissionItem, mission: Mission, frame: LocalFrame) -> tuple[float, float, float]:
+    """(x, y, z) of an item in the local frame."""
+    x, y = frame.from_e7(item.lat_e7, item.lon_e7)
+    amsl = item.alt_m + (mission.home.alt_m if item.frame == Frame.GLOBAL_RELATIVE_ALT else 0.0)
+    return x, y, amsl - frame.alt_m

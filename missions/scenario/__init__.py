@@ -1,0 +1,13 @@
+"""Scenarios: what is planned and flown, read from TOML and checked at the door."""
+
+from missions.scenario.load import load_scenario, parse_scenario, read_scenario_text, shipped_scenarios
+from missions.scenario.model import Scenario, VehicleModel
+
+__all__ = [
+    "Scenario",
+    "VehicleModel",
+    "load_scenario",
+    "parse_scenario",
+    "read_scenario_text",
+    "shipped_scenarios",
+]

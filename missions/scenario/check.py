@@ -1,0 +1,74 @@
+"""What no single key can tell of a scenario: whether its parts fit each other."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from missions.environment import ground_height_m
+from missions.environment.obstacles import wall_distances_m
+from missions.scenario.model import Scenario
+
+
+def problems(scenario: Scenario) -> Iterator[str]:
+    """Contradictions between keys, each as "key: what is wrong; what to do"."""
+    yield from _vehicles(scenario)
+    yield from _places(scenario)
+
+
+def _vehicles(scenario: Scenario) -> Iterator[str]:
+    for key in ("sysid", "name"):
+        seen: dict[object, int] = {}
+        for i, vehicle in enumerate(scenario.vehicles):
+            value = getattr(vehicle, key)
+            if value in seen:
+                yield f"vehicles[{i}].{key}: {value} is already vehicles[{seen[value]}]'s; give each vehicle its own"
+            seen.setdefault(value, i)
+    with_slot = [vehicle.slot is not None for vehicle in scenario.vehicles]
+    if any(with_slot) and scenario.route is None:
+        yield f"vehicles[{with_slot.index(True)}].slot: there is no [route] for it; add one, or give origin and target"
+    if any(with_slot) != all(with_slot):
+        yield f"vehicles[{with_slot.index(False)}]: has no slot but others have; slots and own targets do not mix"
+    if scenario.route is not None and not any(with_slot):
+        yield "route: no vehicle has a slot on it; remove it, or give the vehicles slots"
+
+
+def _places(scenario: Scenario) -> Iterator[str]:
+    if any(vehicle.slot is not None for vehicle in scenario.vehicles) and scenario.route is None:
+        return
+    area, limits = scenario.environment.area, scenario.limits
+    targets = []
+    for i, vehicle in enumerate(scenario.vehicles):
+        origin, target = scenario.origin_m(vehicle), scenario.target_m(vehicle)
+        targets.append(target)
+        for key, (x, y, z) in (("origin", origin), ("target", target)):
+            here = f"vehicles[{i}].{key}: ({x:.0f}, {y:.0f}, {z:.0f})"
+            if not (area.x_min_m <= x <= area.x_max_m and area.y_min_m <= y <= area.y_max_m):
+                yield f"{here} lies outside the area; move it or widen area.x_m, area.y_m"
+            if z > min(area.z_max_m, limits.altitude_max_m):
+                yield f"{here} lies above area.z_m or limits.altitude_max_m"
+            for j, obstacle in enumerate(scenario.environment.obstacles):
+                margin = limits.obstacle_margin_m
+                if wall_distances_m(np.array([x, y, z]), obstacle) < margin:
+                    yield f"{here} is within {margin:g} m of obstacles[{j}]; move it or lower limits.obstacle_margin_m"
+        ground = ground_height_m(target[0], target[1], scenario.environment.terrain)
+        least = ground + limits.clearance_m
+        if target[2] < ground:
+            yield (
+                f"vehicles[{i}].target: {ground - target[2]:.0f} m inside the ground at "
+                f"({target[0]:.0f}, {target[1]:.0f}); raise z to at least {math.ceil(least)} m"
+            )
+        elif target[2] < least:
+            yield (
+                f"vehicles[{i}].target: {target[2] - ground:.0f} m above the ground, limits.clearance_m is "
+                f"{limits.clearance_m:g}; raise z to at least {math.ceil(least)} m"
+            )
+        if math.dist(origin[:2], target[:2]) < limits.leg_min_m:
+            yield f"vehicles[{i}].target: closer to the origin than limits.leg_min_m = {limits.leg_min_m:g}"
+    for i in range(len(targets)):
+        for j in range(i):
+            if (distance := math.dist(targets[i], targets[j])) < limits.separation_m:
+                yield (
+                    f"vehicles[{i}].target: {distance:.0f} m from vehicles[{j}]'s, and both arrive together; "
+                    f"keep limits.separation_m = {limits.separation_m:g}"
+                )
