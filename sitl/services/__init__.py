@@ -1,0 +1,1 @@
+"""A vehicle's MAVLink face: state machines that are fed messages, and the sockets that feed them."""

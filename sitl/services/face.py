@@ -1,0 +1,153 @@
+"""A vehicle as its stations see it: all of its MAVLink services behind one entrance."""
+
+from collections.abc import Callable, Mapping
+
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from missions.frame import LocalFrame
+from sitl.events import ItemReached, StatusText
+from sitl.services.codec import Codec
+from sitl.services.commands import CommandServer
+from sitl.services.heartbeat import heartbeat
+from sitl.services.mission_server import MissionServer
+from sitl.services.parameters import ParameterServer
+from sitl.services.peer import Message, Peer
+from sitl.services.status_text import status_text_messages
+from sitl.services.stream_messages import View
+from sitl.services.telemetry import Telemetry
+from sitl.services.vehicle import Vehicle
+from sitl.snapshot import Snapshot
+
+_HEARTBEAT_PERIOD_S = 1.0
+_AUTOPILOT = mavlink.MAV_COMP_ID_AUTOPILOT1
+_LAST_TEXT_ID = 0xFFFF
+
+
+class MavlinkFace:
+    """Composes one vehicle's services. May be used from several threads: the vehicle's lock orders them.
+
+    Telemetry, events and STATUSTEXT go to every peer, answers to the peer that asked. What one call has to say to a
+    peer leaves in one piece (one datagram).
+
+    Args:
+        vehicle: the vehicle behind it.
+        frame: the local frame of its position.
+        send: puts bytes on the wire to a peer; must not block.
+        now: wall time in seconds; only differences matter.
+        parameters: name to (value, MAV_PARAM_TYPE).
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        frame: LocalFrame,
+        send: Callable[[Peer, bytes], None],
+        now: Callable[[], float],
+        parameters: Mapping[str, tuple[float, int]],
+    ) -> None:
+        self._vehicle = vehicle
+        self._frame = frame
+        self._send_bytes = send
+        self._now = now
+        self._codecs: dict[Peer, Codec] = {}
+        self._outbox: dict[Peer, bytearray] = {}
+        self._heartbeat_at_s = now()
+        self._text_id = 0
+        self._telemetry = Telemetry()
+        self._missions = MissionServer(vehicle, self._reply, self._report, now)
+        self._parameters = ParameterServer(parameters, self._reply, self._report)
+        self._commands = CommandServer(vehicle, self._telemetry, self._view, self._reply, self._report)
+
+    @property
+    def skipped_bytes(self) -> int:
+        """Bytes received from the present peers that belonged to no frame."""
+        return sum(codec.skipped_bytes for codec in self._codecs.values())
+
+    def add_peer(self, peer: Peer) -> None:
+        """Telemetry goes to `peer` from now on."""
+        with self._vehicle.lock:
+            self._codecs.setdefault(peer, Codec(self._vehicle.sysid, _AUTOPILOT))
+
+    def remove_peer(self, peer: Peer) -> None:
+        """`peer` is gone."""
+        with self._vehicle.lock:
+            self._codecs.pop(peer, None)
+            self._missions.forget(peer)
+            self._parameters.forget(peer)
+
+    def on_bytes(self, data: bytes, peer: Peer) -> None:
+        """Take what a peer sent: any bytes at all."""
+        with self._vehicle.lock:
+            self.add_peer(peer)
+            for message in self._codecs[peer].feed(data):
+                self._on_message(message, peer)
+            self._flush()
+
+    def on_tick(self) -> None:
+        """Do what wall time demands: heartbeats, time-outs, lists, events. Call it some ten times a second or more."""
+        with self._vehicle.lock:
+            if self._now() >= self._heartbeat_at_s:
+                self._heartbeat_at_s = self._now() + _HEARTBEAT_PERIOD_S
+                self._broadcast(heartbeat(self._vehicle.snapshot()))
+            self._missions.on_tick()
+            self._parameters.on_tick()
+            self._tell_events()
+            self._flush()
+
+    def wants(self, time_s: float) -> bool:
+        """Whether `on_simulated_tick` has a stream to send at this simulated time; cheap."""
+        return self._telemetry.is_due(time_s)
+
+    def on_simulated_tick(self, snapshot: Snapshot) -> None:
+        """Send the streams that are due at the snapshot's time, and the events so far."""
+        with self._vehicle.lock:
+            for message in self._telemetry.due(snapshot.time_s, lambda: self._view_of(snapshot)):
+                self._broadcast(message)
+            self._tell_events()
+            self._flush()
+
+    def _on_message(self, message: Message, peer: Peer) -> None:
+        if getattr(message, "target_system", 0) not in (0, self._vehicle.sysid):
+            return
+        if getattr(message, "target_component", 0) not in (0, _AUTOPILOT):
+            return
+        if message.get_type() == "TIMESYNC":
+            self._answer_timesync(message, peer)
+        self._missions.on_message(message, peer)
+        self._parameters.on_message(message, peer)
+        self._commands.on_message(message, peer)
+
+    def _answer_timesync(self, message: Message, peer: Peer) -> None:
+        if message.tc1 == 0:
+            self._reply(mavlink.MAVLink_timesync_message(int(self._now() * 1e9), message.ts1), peer)
+
+    def _tell_events(self) -> None:
+        for event in self._vehicle.drain_events():
+            match event:
+                case ItemReached(seq):
+                    self._broadcast(mavlink.MAVLink_mission_item_reached_message(seq))
+                case StatusText():
+                    self._report(event)
+
+    def _view(self) -> View:
+        return self._view_of(self._vehicle.snapshot())
+
+    def _view_of(self, snapshot: Snapshot) -> View:
+        return View(snapshot, self._frame, self._vehicle.mission, self._missions.opaque_id)
+
+    def _report(self, status: StatusText) -> None:
+        self._text_id = self._text_id % _LAST_TEXT_ID + 1
+        for message in status_text_messages(status, self._text_id):
+            self._broadcast(message)
+
+    def _broadcast(self, message: Message) -> None:
+        for peer in self._codecs:
+            self._reply(message, peer)
+
+    def _reply(self, message: Message, peer: Peer) -> None:
+        self._outbox.setdefault(peer, bytearray()).extend(self._codecs[peer].pack(message))
+
+    def _flush(self) -> None:
+        outbox, self._outbox = self._outbox, {}
+        for peer, frames in outbox.items():
+            self._send_bytes(peer, bytes(frames))

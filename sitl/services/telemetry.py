@@ -1,0 +1,87 @@
+"""Which telemetry message is due when, in simulated time."""
+
+from collections.abc import Callable
+
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from sitl.services.peer import Message
+from sitl.services.stream_messages import BUILDERS, View
+from sitl.ticks import TICK_S
+
+TICK_US = round(TICK_S * 1e6)
+"""The shortest interval of a stream (25 Hz)."""
+
+OFF_US = -1
+
+DEFAULT_INTERVALS_US = dict.fromkeys(BUILDERS, 1_000_000) | {
+    mavlink.MAVLINK_MSG_ID_HOME_POSITION: 10_000_000,
+    mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: OFF_US,
+}
+
+_NEVER_US = 2**63
+
+
+class Telemetry:
+    """The streams of one vehicle, the same for all its stations.
+
+    All is counted in whole microseconds, and each stream falls due at multiples of its interval, so that streams of one
+    rate leave together.
+    """
+
+    def __init__(self) -> None:
+        self._intervals_us = dict(DEFAULT_INTERVALS_US)
+        self._due_us = {
+            message_id: _NEVER_US if interval == OFF_US else 0 for message_id, interval in self._intervals_us.items()
+        }
+        self._next_us = 0
+        self._last_us = 0
+
+    def is_due(self, time_s: float) -> bool:
+        """Whether any stream is due at this simulated time: one comparison, for use at each tick."""
+        return _tick_us(time_s) >= self._next_us
+
+    def due(self, time_s: float, view: Callable[[], View]) -> list[Message]:
+        """The messages due at this simulated time, each once however late.
+
+        Args:
+            time_s: simulated time, a whole number of ticks.
+            view: called once, and only when something is due.
+        """
+        now_us = _tick_us(time_s)
+        self._last_us = now_us
+        if now_us < self._next_us:
+            return []
+        due = [message_id for message_id, due_us in self._due_us.items() if due_us <= now_us]
+        for message_id in due:
+            interval_us = self._intervals_us[message_id]
+            self._due_us[message_id] = (now_us // interval_us + 1) * interval_us
+        self._next_us = min(self._due_us.values())
+        state = view()
+        return [BUILDERS[message_id](state) for message_id in due]
+
+    def interval_us(self, message_id: int) -> int | None:
+        """Interval of a stream, -1 when it is off, None when there is no such stream."""
+        return self._intervals_us.get(message_id)
+
+    def set_interval_us(self, message_id: int, interval_us: float) -> bool:
+        """Set a stream's interval as MAV_CMD_SET_MESSAGE_INTERVAL does: 0 the default, -1 off.
+
+        Returns:
+            False when there is no such stream or it cannot have that interval.
+        """
+        if message_id not in self._intervals_us:
+            return False
+        if interval_us == 0:
+            interval_us = DEFAULT_INTERVALS_US[message_id]
+        if not (interval_us == OFF_US or TICK_US <= interval_us < _NEVER_US):
+            return False
+        interval = int(interval_us)
+        self._intervals_us[message_id] = interval
+        next_us = _NEVER_US if interval == OFF_US else (self._last_us // interval + 1) * interval
+        self._due_us[message_id] = next_us
+        self._next_us = min(self._due_us.values())
+        return True
+
+
+def _tick_us(time_s: float) -> int:
+    return round(time_s / TICK_S) * TICK_US
