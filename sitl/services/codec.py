@@ -67,6 +67,8 @@ class Codec:
 
 
 def _find_magic(buffer: bytearray, start: int) -> int:
+    if start < len(buffer) and buffer[start] in (_MAGIC_V2, _MAGIC_V1):
+        return start
     found = [at for at in (buffer.find(_MAGIC_V2, start), buffer.find(_MAGIC_V1, start)) if at >= 0]
     return min(found, default=len(buffer))
 

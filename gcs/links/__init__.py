@@ -1,0 +1,1 @@
+"""How bytes reach the vehicles and come back: one transport a file."""

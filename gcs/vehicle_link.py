@@ -1,0 +1,102 @@
+"""One vehicle as the station knows it: what it said last, and a way to answer."""
+
+import asyncio
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeAlias
+
+from gcs.status_lines import StatusLines
+from gcs.tlog import TelemetryLog
+from sitl.services.peer import Message, Peer
+
+OnMessage: TypeAlias = Callable[[Message], None]
+
+
+class VehicleLink:
+    """One vehicle on a link.
+
+    Args:
+        sysid, compid: its MAVLink ids.
+        peer: where it is.
+        send_message: packs and sends a message to it, and returns the frame.
+        log: where its traffic is recorded.
+
+    Attributes:
+        latest: the newest message of each type.
+        heard_at_s: when it was last heard, `time.monotonic` seconds.
+        heartbeat_at_s: when its last HEARTBEAT came.
+        simulated_ms: its newest time_boot_ms.
+        lost_frames: frames missing from its sequence numbers.
+        texts: its STATUSTEXT lines, oldest first.
+        transfer_lock: held by the one transfer there may be at a time.
+    """
+
+    def __init__(
+        self,
+        sysid: int,
+        compid: int,
+        peer: Peer,
+        send_message: Callable[[Message], bytes],
+        log: TelemetryLog | None = None,
+    ) -> None:
+        self.sysid = sysid
+        self.compid = compid
+        self.peer = peer
+        self.latest: dict[str, Message] = {}
+        self.heard_at_s = time.monotonic()
+        self.heartbeat_at_s = self.heard_at_s
+        self.simulated_ms = 0
+        self.lost_frames = 0
+        self.texts: list[str] = []
+        self.transfer_lock = asyncio.Lock()
+        self._send_message = send_message
+        self._log = log
+        self._next_seq: int | None = None
+        self._listeners: list[OnMessage] = []
+        self._status_lines = StatusLines()
+
+    def __str__(self) -> str:
+        return f"vehicle {self.sysid}"
+
+    def send(self, message: Message) -> None:
+        """Send one message to the vehicle."""
+        frame = self._send_message(message)
+        if self._log is not None:
+            self._log.write(self.simulated_ms, frame)
+
+    @contextmanager
+    def listening(self, on_message: OnMessage) -> Iterator[None]:
+        """Within this context, `on_message` gets every message from the vehicle as it comes."""
+        self._listeners.append(on_message)
+        try:
+            yield
+        finally:
+            self._listeners.remove(on_message)
+
+    def move_to(self, peer: Peer, send_message: Callable[[Message], bytes]) -> None:
+        """The vehicle has come back at another address."""
+        self.peer = peer
+        self._send_message = send_message
+        self._next_seq = None
+
+    def on_message(self, message: Message) -> None:
+        """Take one message from the vehicle."""
+        self.heard_at_s = time.monotonic()
+        kind = message.get_type()
+        if kind == "HEARTBEAT":
+            self.heartbeat_at_s = self.heard_at_s
+        elif kind == "STATUSTEXT":
+            self.texts.extend(self._status_lines.feed(message))
+        self.simulated_ms = max(self.simulated_ms, getattr(message, "time_boot_ms", 0))
+        self._count_lost(message.get_seq())
+        self.latest[kind] = message
+        if self._log is not None:
+            self._log.write(self.simulated_ms, bytes(message.get_msgbuf()))
+        for listener in list(self._listeners):
+            listener(message)
+
+    def _count_lost(self, seq: int) -> None:
+        if self._next_seq is not None:
+            self.lost_frames += (seq - self._next_seq) % 256
+        self._next_seq = (seq + 1) % 256
