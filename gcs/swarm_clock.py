@@ -1,0 +1,61 @@
+"""Holding, releasing, pacing and stopping a swarm's clocks over Zenoh (the queryable `skein/<swarm>/clock`)."""
+
+import json
+from collections.abc import Iterable
+
+import zenoh
+
+from missions.errors import InputError
+from sitl.zenoh_session import clock_key
+
+TIMEOUT_S = 5.0
+
+
+class SwarmClock:
+    """The clocks of a swarm, as one.
+
+    Args:
+        session: connected to all endpoints.
+        swarm: the swarm's name.
+    """
+
+    def __init__(self, session: zenoh.Session, swarm: str) -> None:
+        self._session = session
+        self._key = clock_key(swarm)
+
+    def release(self, sysids: Iterable[int]) -> None:
+        """Let the clocks of these vehicles go on.
+
+        Raises:
+            InputError: some of them did not answer.
+        """
+        self._ask({"do": "release"}, sysids)
+
+    def hold(self, sysids: Iterable[int]) -> None:
+        """Let the clocks of these vehicles stand still. Raises as `release`."""
+        self._ask({"do": "hold"}, sysids)
+
+    def pace(self, speed: float, sysids: Iterable[int]) -> None:
+        """Set the speed factor; 0 for as fast as it goes. Raises as `release`."""
+        self._ask({"speed": speed}, sysids)
+
+    def stop(self, sysids: Iterable[int]) -> None:
+        """End the simulation of these vehicles. Raises as `release`."""
+        self._ask({"do": "stop"}, sysids)
+
+    def _ask(self, request: dict[str, object], sysids: Iterable[int]) -> None:
+        waiting = set(sysids)
+        replies = self._session.get(
+            self._key,
+            payload=json.dumps(request),
+            target=zenoh.QueryTarget.ALL,
+            consolidation=zenoh.ConsolidationMode.NONE,
+            timeout=TIMEOUT_S,
+        )
+        for reply in replies:
+            if reply.ok is not None:
+                waiting.discard(json.loads(reply.ok.payload.to_bytes())["sysid"])
+            if not waiting:
+                return
+        if waiting:
+            raise InputError(f"the clocks of vehicles {sorted(waiting)} did not answer within {TIMEOUT_S:g} s")

@@ -1,0 +1,47 @@
+"""What an endpoint is told when it starts. It learns a plan only as a mission, over MAVLink."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from missions.airframe import Airframe
+from missions.environment import Terrain
+from missions.frame import LocalFrame
+from sitl.formation.law import Gains
+
+Arm = Literal["full", "own_schedule", "plain"]
+"""Of a comparison: neighbours' corrections and own schedule, own schedule only, or a plain autopilot."""
+
+
+@dataclass(frozen=True)
+class VehicleConfig:
+    """One simulated vehicle.
+
+    Attributes:
+        sysid, name: of the vehicle.
+        frame: the scenario's local frame.
+        home_m: where it stands: (x, y, z), local frame.
+        airframe, terrain: what flies, and over what.
+        seed: of the gusts.
+        steady_wind_m_s: what blows, (east, north).
+        forecast_wind_m_s: what the schedule reckons with, (east, north).
+        gusts: intensity, a key of `sitl.aircraft.gusts.INTENSITIES_M_S`.
+        gains: of the formation law.
+        weights: a_pq by neighbour's sysid.
+        delay_ticks: of the neighbours' corrections.
+        arm: how much of the law is on.
+    """
+
+    sysid: int
+    name: str
+    frame: LocalFrame
+    home_m: tuple[float, float, float]
+    airframe: Airframe
+    terrain: Terrain
+    seed: int
+    steady_wind_m_s: tuple[float, float]
+    forecast_wind_m_s: tuple[float, float]
+    gusts: str
+    gains: Gains
+    weights: dict[int, float]
+    delay_ticks: int
+    arm: Arm

@@ -1,0 +1,165 @@
+"""One endpoint: a simulated vehicle's process. Free of numba, scipy and pydantic, so that nine of them start fast."""
+
+import contextlib
+import math
+import signal
+import threading
+import time
+from dataclasses import dataclass
+from multiprocessing import parent_process
+from multiprocessing.connection import Connection, wait
+from pathlib import Path
+
+from zenoh import ZError
+
+from missions.errors import InputError
+from sitl.clock import Clock, serve_clock
+from sitl.config import VehicleConfig
+from sitl.events import StatusText
+from sitl.formation.exchange import Exchange
+from sitl.parameters import arduplane_parameters
+from sitl.services.face import MavlinkFace
+from sitl.services.links import StationLinks
+from sitl.ticks import TICK_S
+from sitl.truth import TruthWriter
+from sitl.vehicle import Vehicle
+from sitl.zenoh_session import Peer, alive_key, discard_sockets, open_session
+
+NEIGHBOURS_TIMEOUT_S = 30.0
+LAST_WORDS_S = 2.0
+"""To end in good order when the station has gone."""
+SEVERITY_WARNING = 4
+"""MAV_SEVERITY_WARNING."""
+
+
+@dataclass(frozen=True)
+class EndpointConfig:
+    """One endpoint.
+
+    Attributes:
+        vehicle: what flies.
+        swarm: the name in the swarm's Zenoh keys.
+        peer: where its Zenoh session listens and connects.
+        stations: (host, port) that telemetry goes to over UDP.
+        tcp_port: of its TCP server; 0 for a free one.
+        truth: the file for its truth; None keeps none.
+        held: whether its clock starts held.
+        speed: factor of its clock; infinite for as fast as it goes.
+    """
+
+    vehicle: VehicleConfig
+    swarm: str
+    peer: Peer
+    stations: tuple[tuple[str, int], ...]
+    tcp_port: int
+    truth: Path | None
+    held: bool
+    speed: float = math.inf
+
+
+@dataclass(frozen=True)
+class Ready:
+    """First report of an endpoint: it answers at these ports."""
+
+    tcp_port: int
+    udp_port: int
+
+
+@dataclass(frozen=True)
+class Ended:
+    """Last report of an endpoint: it has stopped as told; samples it had to do without."""
+
+    tick: int
+    rejected_samples: int
+
+
+@dataclass(frozen=True)
+class Failed:
+    """Last report of an endpoint that cannot go on, and why."""
+
+    reason: str
+
+
+Report = Ready | Ended | Failed
+
+
+def run_endpoint(config: EndpointConfig, reports: Connection) -> None:
+    """Run a vehicle until its clock is stopped, it is told to terminate, or the station that started it has gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C hits the whole group; the station stops us
+    _end_with_parent()
+    try:
+        last: Report = _serve(config, reports)
+    except (InputError, OSError, ZError) as error:
+        last = Failed(f"vehicle {config.vehicle.sysid}: {error}")
+    discard_sockets(config.peer)
+    with contextlib.suppress(OSError):
+        reports.send(last)
+
+
+def _serve(config: EndpointConfig, reports: Connection) -> Ended:
+    """Open everything, fly, close everything."""
+    sysid = config.vehicle.sysid
+    truth = TruthWriter(config.truth)
+    vehicle = Vehicle(config.vehicle, truth)
+    with (
+        contextlib.closing(truth),
+        contextlib.closing(StationLinks(config.tcp_port, config.stations)) as links,
+        open_session(config.peer) as session,
+    ):
+        parameters = arduplane_parameters(sysid, config.vehicle.airframe)
+        face = MavlinkFace(vehicle, config.vehicle.frame, links.send, time.monotonic, parameters)
+        links.attach(face)
+        exchange = Exchange(session, config.swarm, sysid, config.vehicle.weights)
+        clock = Clock(held=config.held, speed=config.speed, on_stop=exchange.stop)
+        signal.signal(signal.SIGTERM, lambda *_: threading.Thread(target=clock.stop).start())
+        serve_clock(session, config.swarm, sysid, clock)
+        alive = session.liveliness().declare_token(alive_key(config.swarm, sysid))
+        if missing := exchange.wait_for_neighbours(NEIGHBOURS_TIMEOUT_S):
+            raise InputError(f"heard nothing of vehicles {sorted(missing)} over Zenoh")
+
+        stopped = threading.Event()
+        server = threading.Thread(target=links.run, args=(stopped,), name="mavlink")
+        server.start()
+        try:
+            reports.send(Ready(links.tcp_port, links.udp_port))
+            _fly(vehicle, face, exchange, clock, config.vehicle.delay_ticks)
+        finally:
+            stopped.set()
+            links.stop_waiting()
+            server.join()
+            alive.undeclare()
+        return Ended(vehicle.tick, exchange.rejected)
+
+
+def _fly(vehicle: Vehicle, face: MavlinkFace, exchange: Exchange, clock: Clock, delay_ticks: int) -> None:
+    """Tick by tick until the clock is stopped."""
+    lost: set[int] = set()
+    while clock.wait_for(vehicle.tick):
+        with vehicle.lock:
+            own = vehicle.observe()
+        exchange.publish(own)
+        heard = exchange.gather(own.tick - delay_ticks)
+        if clock.stopped:
+            return
+        with vehicle.lock:
+            for sysid in exchange.gone - lost:
+                lost.add(sysid)
+                vehicle.report(StatusText(SEVERITY_WARNING, f"Neighbour {sysid} lost, flying on"))
+            vehicle.advance(heard)
+            if face.wants(vehicle.tick * TICK_S):
+                face.on_simulated_tick(vehicle.snapshot())
+
+
+def _end_with_parent() -> None:
+    """End this process when the station that started it has gone: in good order, or else by force."""
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def watch() -> None:
+        wait([parent.sentinel])
+        signal.raise_signal(signal.SIGTERM)
+        time.sleep(LAST_WORDS_S)
+        signal.raise_signal(signal.SIGKILL)
+
+    threading.Thread(target=watch, daemon=True, name="parent").start()

@@ -1,0 +1,58 @@
+"""What a vehicle tells its neighbours: its deviation from its own plan, stamped with its tick.
+
+The layout on the wire, version 1, 40 bytes, little-endian:
+
+| offset | type | field |
+|---|---|---|
+| 0 | 2 bytes | "SK" |
+| 2 | uint8 | version, 1 |
+| 3 | uint8 | flags: bit 0, the vehicle flies its schedule and counts in the formation |
+| 4 | uint32 | sysid |
+| 8 | int64 | tick that the values are of |
+| 16 | uint64 | sequence number, one more with each sample |
+| 24 | float64 | e, metres along the path ahead of the schedule |
+| 32 | float64 | e', m/s |
+"""
+
+import math
+import struct
+from typing import NamedTuple
+
+VERSION = 1
+_LAYOUT = struct.Struct("<2sBBIqQdd")
+_IN_FORMATION = 1
+
+
+class Correction(NamedTuple):
+    """One vehicle's deviation at one tick."""
+
+    sysid: int
+    tick: int
+    sequence: int
+    in_formation: bool
+    along_m: float
+    along_rate_m_s: float
+
+
+def encode(sample: Correction) -> bytes:
+    """The sample's 40 bytes."""
+    flags = _IN_FORMATION if sample.in_formation else 0
+    return _LAYOUT.pack(
+        b"SK", VERSION, flags, sample.sysid, sample.tick, sample.sequence, sample.along_m, sample.along_rate_m_s
+    )
+
+
+def decode(payload: bytes) -> Correction:
+    """The sample in a payload.
+
+    Raises:
+        ValueError: it is no sample of this version; the message says why.
+    """
+    if len(payload) != _LAYOUT.size:
+        raise ValueError(f"{len(payload)} bytes, not {_LAYOUT.size}")
+    magic, version, flags, sysid, tick, sequence, along, along_rate = _LAYOUT.unpack(payload)
+    if magic != b"SK" or version != VERSION:
+        raise ValueError(f"not a correction of version {VERSION}")
+    if not (math.isfinite(along) and math.isfinite(along_rate)):
+        raise ValueError("not finite")
+    return Correction(sysid, tick, sequence, bool(flags & _IN_FORMATION), along, along_rate)

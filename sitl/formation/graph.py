@@ -1,0 +1,55 @@
+"""Communication graphs over vehicles in order of sysid (MODEL, section 6)."""
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+Edge = tuple[int, int]
+
+
+def edges(kind: str, sysids: Sequence[int]) -> tuple[Edge, ...]:
+    """The edges (p, q), p < q, of a named graph: ring, line, star (around the first) or complete.
+
+    Raises:
+        ValueError: no such graph.
+    """
+    nodes = sorted(sysids)
+    chain = list(itertools.pairwise(nodes))
+    if kind == "line":
+        pairs = chain
+    elif kind == "ring":
+        pairs = [*chain, (nodes[0], nodes[-1])] if len(nodes) > 2 else chain
+    elif kind == "star":
+        pairs = [(nodes[0], node) for node in nodes[1:]]
+    elif kind == "complete":
+        pairs = [(p, q) for i, p in enumerate(nodes) for q in nodes[i + 1 :]]
+    else:
+        raise ValueError(f"no graph {kind!r}; there are ring, line, star and complete")
+    return tuple(sorted(pairs))
+
+
+def neighbour_weights(sysid: int, graph: Sequence[Edge]) -> dict[int, float]:
+    """a_pq = 1 / max(d_p, d_q) of each neighbour q of a vehicle p, in order of sysid.
+
+    The weights are symmetric and keep the largest eigenvalue of the Laplacian at most 2 on any graph.
+    """
+    degree: dict[int, int] = {}
+    for edge in graph:
+        for node in edge:
+            degree[node] = degree.get(node, 0) + 1
+    near = sorted({p if q == sysid else q for p, q in graph if sysid in (p, q)})
+    return {node: 1.0 / max(degree[sysid], degree[node]) for node in near}
+
+
+def laplacian(sysids: Sequence[int], graph: Sequence[Edge]) -> npt.NDArray[np.float64]:
+    """The weighted Laplacian D - A, (n, n), rows in order of sysid."""
+    nodes = sorted(sysids)
+    row = {node: i for i, node in enumerate(nodes)}
+    matrix = np.zeros((len(nodes), len(nodes)))
+    for node in nodes:
+        for other, weight in neighbour_weights(node, graph).items():
+            matrix[row[node], row[other]] = -weight
+            matrix[row[node], row[node]] += weight
+    return matrix

@@ -1,0 +1,23 @@
+"""Streams of normal draws that depend on their key alone, never on who asks first."""
+
+from collections.abc import Iterator
+from enum import IntEnum
+
+import numpy as np
+
+BLOCK = 512
+"""Draws are made this many ticks at a time; the values do not depend on it."""
+
+
+class Stream(IntEnum):
+    """What a stream of draws is for."""
+
+    GUSTS = 1
+
+
+def normals(seed: int, sysid: int, stream: Stream, per_tick: int) -> Iterator[tuple[float, ...]]:
+    """An endless stream of `per_tick` standard normal draws a tick, from numpy's Philox keyed by all three."""
+    generator = np.random.Generator(np.random.Philox(key=[seed, (sysid << 32) | stream]))
+    while True:
+        for row in generator.standard_normal((BLOCK, per_tick)).tolist():
+            yield tuple(row)

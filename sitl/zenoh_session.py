@@ -1,0 +1,114 @@
+"""Opening a Zenoh session for a swarm on this machine, and the swarm's keys.
+
+Peers listen on sockets of their own and connect to those that they are told; nobody scouts. The leases are long, since
+in lockstep a paused process must lose nothing; one that has ended is noticed at once, by its closed socket.
+"""
+
+import contextlib
+import json
+import socket
+import tempfile
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import zenoh
+
+UNIX = "unixsock-stream/"
+
+
+@dataclass(frozen=True)
+class Peer:
+    """Where a session listens and connects to, as Zenoh endpoints ("unixsock-stream/path", "tcp/host:port")."""
+
+    listen: tuple[str, ...]
+    connect: tuple[str, ...]
+
+
+def open_session(peer: Peer) -> zenoh.Session:
+    """Open a session; the caller closes it, best by `with`.
+
+    Raises:
+        zenoh.ZError: it cannot listen there.
+    """
+    config = zenoh.Config()
+    for key, value in _settings(peer).items():
+        config.insert_json5(key, json.dumps(value))
+    return zenoh.open(config)
+
+
+def _settings(peer: Peer) -> dict[str, object]:
+    return {
+        "mode": "peer",
+        "listen/endpoints": list(peer.listen),
+        "connect/endpoints": list(peer.connect),
+        "connect/timeout_ms": -1,
+        "connect/exit_on_failure": False,
+        "connect/retry": {"period_init_ms": 50, "period_max_ms": 200, "period_increase_factor": 1.5},
+        "scouting/multicast/enabled": False,
+        "scouting/gossip/enabled": False,
+        "scouting/delay": 0,
+        "transport/link/tx/lease": 3_600_000,
+        "transport/link/tx/keep_alive": 400,
+        "transport/link/tx/queue/congestion_control/block/wait_before_close": 3_600_000_000,
+    }
+
+
+def correction_key(swarm: str, sysid: int) -> str:
+    """Where a vehicle publishes its corrections."""
+    return f"skein/{swarm}/{sysid}/correction"
+
+
+def alive_key(swarm: str, sysid: int | str) -> str:
+    """The liveliness token of a vehicle; sysid "*" for all."""
+    return f"skein/{swarm}/{sysid}/alive"
+
+
+def clock_key(swarm: str) -> str:
+    """The queryable that holds, releases, paces and stops the clocks."""
+    return f"skein/{swarm}/clock"
+
+
+def sysid_of(alive: str, swarm: str) -> int:
+    """The sysid in a liveliness token's key."""
+    return int(alive.removeprefix(f"skein/{swarm}/").removesuffix("/alive"))
+
+
+def local_peers(neighbours: Mapping[int, Iterable[int]]) -> tuple[dict[int, Peer], Peer]:
+    """A swarm's peers on this machine.
+
+    Of two neighbours the one with the larger sysid connects to the other; the station connects to all. They meet on
+    Unix sockets in a new folder, or on free TCP ports where there are none.
+
+    Args:
+        neighbours: of each vehicle, by sysid.
+
+    Returns:
+        The vehicles' peers by sysid, and the station's.
+    """
+    address = dict(zip(neighbours, _addresses(list(neighbours)), strict=True))
+    peers = {
+        sysid: Peer((address[sysid],), tuple(address[other] for other in sorted(others) if other < sysid))
+        for sysid, others in neighbours.items()
+    }
+    return peers, Peer((), tuple(address.values()))
+
+
+def _addresses(sysids: list[int]) -> list[str]:
+    if hasattr(socket, "AF_UNIX"):
+        folder = tempfile.mkdtemp(prefix="skein-")
+        return [f"{UNIX}{folder}/{sysid}" for sysid in sysids]
+    with contextlib.ExitStack() as stack:
+        listeners = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in sysids]
+        return [f"tcp/127.0.0.1:{listener.getsockname()[1]}" for listener in listeners]
+
+
+def discard_sockets(peer: Peer) -> None:
+    """Remove what a closed session leaves behind: its socket, and the folder if it was the last."""
+    for endpoint in peer.listen:
+        if endpoint.startswith(UNIX):
+            path = Path(endpoint.removeprefix(UNIX))
+            for left in (path, path.with_name(path.name + ".lock")):
+                left.unlink(missing_ok=True)
+            with contextlib.suppress(OSError):
+                path.parent.rmdir()
