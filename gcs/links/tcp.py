@@ -1,6 +1,7 @@
 """A TCP connection to one vehicle, as to a simulator's 5760."""
 
 import asyncio
+from typing import cast
 
 from gcs.links.link import OnBytes, ignore_bytes
 from missions.errors import InputError
@@ -47,8 +48,7 @@ class TcpLink(asyncio.Protocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """asyncio's: connected."""
-        assert isinstance(transport, asyncio.Transport)
-        self._transport = transport
+        self._transport = cast(asyncio.Transport, transport)  # not all of asyncio's are instances of it
 
     def data_received(self, data: bytes) -> None:
         """asyncio's: bytes are in."""

@@ -2,6 +2,7 @@
 
 import asyncio
 import socket
+from typing import cast
 
 from gcs.links.link import OnBytes, ignore_bytes
 from missions.errors import InputError
@@ -56,8 +57,7 @@ class UdpLink(asyncio.DatagramProtocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """asyncio's: the port is open."""
-        assert isinstance(transport, asyncio.DatagramTransport)
-        self._transport = transport
+        self._transport = cast(asyncio.DatagramTransport, transport)  # not all of asyncio's are instances of it
 
     def datagram_received(self, data: bytes, addr: tuple[str, int]) -> None:
         """asyncio's: a datagram is in."""
