@@ -1,0 +1,1 @@
+"""Mission files that other ground stations read: one format a file."""
