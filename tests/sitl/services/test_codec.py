@@ -1,0 +1,57 @@
+"""What is true of the frames of one peer."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from sitl.services.codec import Codec
+
+
+def heartbeat() -> mavlink.MAVLink_message:
+    return mavlink.MAVLink_heartbeat_message(1, 3, 81, 10, 3, 3)
+
+
+@given(st.lists(st.binary(max_size=40), max_size=5))
+def test_garbage_never_raises_and_never_swallows_the_frames_around_it(pieces: list[bytes]) -> None:
+    codec, reader = Codec(7, 1), Codec(255, 190)
+    garbage = [piece.replace(b"\xfd", b"").replace(b"\xfe", b"") for piece in pieces]
+    data = b"".join(piece + codec.pack(heartbeat()) for piece in garbage)
+    messages = reader.feed(data)
+    assert [message.get_seq() for message in messages] == list(range(len(pieces)))
+    assert reader.skipped_bytes == sum(map(len, garbage))
+
+
+@given(st.binary(max_size=400))
+def test_any_bytes_at_all_leave_the_codec_able_to_read(data: bytes) -> None:
+    codec, reader = Codec(7, 1), Codec(255, 190)
+    reader.feed(data)
+    frames = b"".join(
+        codec.pack(heartbeat()) for _ in range(20)
+    )  # more than the longest frame that garbage can promise
+    assert reader.feed(frames)[-1].get_seq() == 19
+
+
+@given(st.integers(1, 30))
+def test_frames_may_come_in_pieces_of_any_size(size: int) -> None:
+    codec, reader = Codec(7, 1), Codec(255, 190)
+    data = b"".join(codec.pack(heartbeat()) for _ in range(5))
+    pieces = [data[start : start + size] for start in range(0, len(data), size)]
+    assert sum(len(reader.feed(piece)) for piece in pieces) == 5
+    assert reader.skipped_bytes == 0
+
+
+def test_a_flipped_bit_costs_that_frame_only() -> None:
+    codec, reader = Codec(7, 1), Codec(255, 190)
+    frames = [bytearray(codec.pack(heartbeat())) for _ in range(3)]
+    frames[1][12] ^= 0x10
+    assert [message.get_seq() for message in reader.feed(b"".join(frames))] == [0, 2]
+
+
+def test_sequence_numbers_wrap_at_256() -> None:
+    codec = Codec(7, 1)
+    assert [codec.pack(heartbeat())[4] for _ in range(258)][-3:] == [255, 0, 1]
+
+
+def test_frames_of_version_1_are_read() -> None:
+    frame = heartbeat().pack(mavlink.MAVLink(None, 3, 1), force_mavlink1=True)
+    assert Codec(255, 190).feed(frame)[0].get_srcSystem() == 3
