@@ -86,6 +86,10 @@ def _int16(value: float) -> int:
     return max(-32768, min(32767, round(value)))
 
 
+def _uint16(value: float) -> int:
+    return max(0, min(0xFFFF, round(value)))
+
+
 def attitude(view: View) -> Message:
     """ATTITUDE: wings and nose along the air velocity; the yaw rate is that of a coordinated turn."""
     now = view.snapshot
@@ -157,7 +161,7 @@ def gps_raw(view: View) -> Message:
         round(view.altitude_m * 1000),
         _GPS_DILUTION,
         _GPS_DILUTION,
-        round(view.ground_speed_m_s * 100),
+        _uint16(view.ground_speed_m_s * 100),
         _centidegrees(math.atan2(east, north)),
         _GPS_SATELLITES,
     )
@@ -182,7 +186,7 @@ def nav_controller_output(view: View) -> Message:
     """NAV_CONTROLLER_OUTPUT: errors as wanted minus actual, cross-track positive left of the path."""
     now = view.snapshot
     bearing = _target_bearing_deg(view)
-    distance_m = max(0, min(0xFFFF, round(now.distance_to_waypoint_m)))
+    distance_m = _uint16(now.distance_to_waypoint_m)
     roll_deg, pitch_deg = -math.degrees(now.bank), math.degrees(now.climb_angle)
     airspeed_error = now.airspeed_wanted_m_s - now.airspeed_m_s
     return mavlink.MAVLink_nav_controller_output_message(
