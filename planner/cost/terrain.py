@@ -1,0 +1,73 @@
+"""How high a leg passes above the ground: samples so close that no dip between two of them is deeper than `DIP_M`."""
+
+import math
+from typing import Any
+
+from missions.environment.terrain import ground_height_m
+from planner.compiled import compile_shared, jit
+
+DIP_M = 3.0
+
+_ground_height_m = compile_shared(ground_height_m)
+
+
+@jit
+def leg_clearance_m(
+    p: Any, q: Any, s0_m: float, s1_m: float, terrain: Any, clearance_m: float, climb_out_m: float
+) -> tuple[float, float]:
+    """Least clearance r_k of the leg from p to q, equation (6), and the largest shortfall of the wanted clearance.
+
+    Args:
+        s0_m, s1_m: length of the path before p and before q; the wanted clearance grows with it, from 0 at the
+            origin to `clearance_m` at `climb_out_m`.
+
+    Both in metres; the shortfall is negative where there is more than wanted.
+    """
+    steps = _steps(p, q, terrain)
+    if s0_m < climb_out_m:  # the ramp's end is a corner of what is wanted, which curvature knows nothing of
+        steps = max(steps, int((s1_m - s0_m) / 100.0) + 1)
+    least = math.inf
+    shortfall = -math.inf
+    for i in range(steps + 1):
+        t = i / steps
+        x, y, z = p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])
+        clearance = z - _ground_height_m(x, y, terrain)
+        wanted = clearance_m * min(1.0, (s0_m + t * (s1_m - s0_m)) / climb_out_m)
+        least = min(least, clearance)
+        shortfall = max(shortfall, wanted - clearance)
+    return least, shortfall
+
+
+@jit
+def _steps(p: Any, q: Any, terrain: Any) -> int:
+    """Into how many steps to cut a leg.
+
+    Between two samples h apart a function dips by at most M h^2 / 8 below them, where M bounds its second derivative;
+    the datum wave, which may have kinks, by at most L h / 2, where L bounds its slope.
+    """
+    bend = 0.0
+    dx, dy = q[0] - p[0], q[1] - p[1]
+    for i in range(len(terrain.peaks)):
+        peak = terrain.peaks[i]
+        u, v = (p[0] - peak[1]) / peak[3], (p[1] - peak[2]) / peak[4]
+        du, dv = dx / peak[3], dy / peak[4]
+        speed2 = du * du + dv * dv
+        if speed2 == 0.0:
+            continue
+        t = min(1.0, max(0.0, -(u * du + v * dv) / speed2))
+        u, v = u + t * du, v + t * dv
+        exponent = u * u + v * v
+        if exponent > 40.0:
+            continue
+        if peak[0] >= 0.0:
+            bend += 2.0 * speed2 * peak[0] * math.exp(-exponent)
+        else:  # the rim of a hollow
+            rim = max(1.0, exponent)
+            bend -= 4.0 * speed2 * peak[0] * rim * math.exp(-rim)
+    steps = math.sqrt(bend / (8.0 * DIP_M))
+    amplitude_m, _, b, c, d, e, f, g = terrain.wave
+    if amplitude_m != 0.0:
+        slope_km = abs(amplitude_m) * (1.0 + abs(b) + abs(c * d) + abs(e) + f * f + abs(g))
+        rise_m = slope_km * math.hypot(dx, dy) / 1000.0 + abs(q[2] - p[2])
+        steps = max(steps, rise_m / (2.0 * DIP_M))
+    return int(steps) + 1

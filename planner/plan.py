@@ -1,0 +1,178 @@
+"""A verified plan for all vehicles of a scenario."""
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from missions.errors import InputError
+from missions.reference.reference import fillet_radius_m
+from missions.scenario import Scenario
+from planner.cost.kernel import INFEASIBLE_KM, evaluate, with_progress
+from planner.cost.problem import NO_MARGINS, PathProblem, path_problem
+from planner.find_path import SEARCHES, PathFound, find_path, require_feasible
+from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
+from planner.loiter import Circle, stack
+from planner.schedule import Schedule, common_arrival
+from planner.slots import slot_path_m, slot_schedule
+from planner.verify import VerificationReport, require, verify
+from planner.write_mission import write_mission
+
+FloatArray = npt.NDArray[np.float64]
+
+SLOTS = "slots"
+"""The method of a scenario whose vehicles have slots on a route: there is nothing to search for."""
+ATTEMPTS = 4
+"""Searches for one UAV, each with its own chance, before planning gives up."""
+
+
+@dataclass(frozen=True)
+class PlanProgress:
+    """How far planning has come.
+
+    Attributes:
+        uav, uavs: which UAV, from 0, of how many.
+        name: of that UAV.
+        iteration, iterations: of its search, from 1.
+        best_km: best feasible cost so far, or None.
+    """
+
+    uav: int
+    uavs: int
+    name: str
+    iteration: int
+    iterations: int
+    best_km: float | None
+
+
+Progress = Callable[[PlanProgress], None]
+
+
+def plan(
+    scenario: Scenario, *, seed: int | None = None, method: str | None = None, progress: Progress | None = None
+) -> FormationPlan:
+    """Plan all vehicles: paths in order of priority, each avoiding the earlier ones in time; the schedule; the
+    missions; and the verification that every plan passes before anyone sees it.
+
+    Args:
+        scenario: what to plan.
+        seed: of all chance; the scenario's unless given.
+        method: a key of `planner.find_path.SEARCHES`; the scenario's unless given. Slots need no search.
+        progress: told of every iteration.
+
+    Raises:
+        InputError: there is no such method, or no plan was found that keeps to all limits; says which UAV and why.
+    """
+    seed = scenario.seed if seed is None else seed
+    method = SLOTS if scenario.route is not None else method or scenario.search.method
+    if method != SLOTS and method not in SEARCHES:
+        raise InputError(f"method {method}: must be one of {', '.join(SEARCHES)}")
+    start = time.perf_counter()
+    _compile(scenario)
+    compiled = time.perf_counter()
+    if method == SLOTS:
+        result, report = _on_slots(scenario, seed)
+        require(report)
+    else:
+        result = _searched(scenario, seed, method, progress or (lambda _: None))
+    return replace(result, compile_s=compiled - start, plan_s=time.perf_counter() - compiled)
+
+
+def _compile(scenario: Scenario) -> None:
+    """Have the kernel compiled, or loaded from its cache, by one use."""
+    problem = path_problem(
+        scenario, scenario.vehicles[0], np.empty((0, 2, 4)), scenario.airframe.airspeed_cruise_m_s, NO_MARGINS
+    )
+    evaluate(np.zeros((1, 3)), problem, "graded")
+    with_progress(problem.corners_m([]), problem)
+
+
+def _searched(scenario: Scenario, seed: int, method: str, progress: Progress) -> FormationPlan:
+    """Search for one path after the other; begin again with the first UAV that the verifier finds fault with."""
+    vehicles = scenario.vehicles
+    names = [vehicle.name for vehicle in vehicles]
+    attempts = [0] * len(vehicles)
+    paths: list[PathFound] = []
+    while True:
+        for i in range(len(paths), len(vehicles)):
+
+            def tell(iteration: int, iterations: int, best: float, uav: int = i) -> None:
+                feasible = best if best < INFEASIBLE_KM else None
+                progress(PlanProgress(uav, len(vehicles), names[uav], iteration, iterations, feasible))
+
+            while True:
+                path = find_path(
+                    scenario, vehicles[i], paths, method=method, seed=seed, attempt=attempts[i], report=tell
+                )
+                attempts[i] += 1
+                if path.feasible or attempts[i] >= ATTEMPTS:
+                    break
+            require_feasible(names[i], path, attempts[i])
+            paths.append(path)
+        schedules = common_arrival(names, [path.corners_m for path in paths], scenario)
+        result, report = _assembled(scenario, seed, method, paths, schedules)
+        if not report.violations:
+            return result
+        first = min(i for i, vehicle in enumerate(vehicles) if vehicle.sysid in report.at_fault)
+        if attempts[first] >= ATTEMPTS:
+            require(report)
+        del paths[first:]
+
+
+def _on_slots(scenario: Scenario, seed: int) -> tuple[FormationPlan, VerificationReport]:
+    """Every slot's path and schedule; what they cost, without a search."""
+    assert scenario.route is not None
+    paths = []
+    for vehicle in scenario.vehicles:
+        corners = slot_path_m(scenario, vehicle)
+        problem = path_problem(
+            scenario, vehicle, np.empty((0, len(corners), 4)), scenario.route.ground_speed_m_s, NO_MARGINS
+        )
+        paths.append(PathFound(problem, corners, 0.0, 0, ()))
+    schedules = [
+        slot_schedule(scenario, vehicle, path.corners_m) for vehicle, path in zip(scenario.vehicles, paths, strict=True)
+    ]
+    return _assembled(scenario, seed, SLOTS, paths, schedules)
+
+
+def _assembled(
+    scenario: Scenario, seed: int, method: str, paths: Sequence[PathFound], schedules: Sequence[Schedule]
+) -> tuple[FormationPlan, VerificationReport]:
+    """Loiters, missions and figures of paths with their schedules, and what the verifier says of them."""
+    vehicles, limits = scenario.vehicles, scenario.limits
+    targets = [scenario.target_m(vehicle) for vehicle in vehicles]
+    circles = stack(
+        [vehicle.name for vehicle in vehicles],
+        [
+            Circle(x, y, z, math.ceil(fillet_radius_m(float(schedule.ground_m_s.max()))))
+            for (x, y, z), schedule in zip(targets, schedules, strict=True)
+        ],
+        limits.separation_m,
+        min(limits.altitude_max_m, scenario.environment.area.z_max_m),
+    )
+    uavs = []
+    for vehicle, path, schedule, circle in zip(vehicles, paths, schedules, circles, strict=True):
+        uavs.append(
+            UavPlan(
+                sysid=vehicle.sysid,
+                name=vehicle.name,
+                waypoints_m=path.corners_m,
+                terms=_terms(path.corners_m, path.problem),
+                straight_line_m=float(np.linalg.norm(path.corners_m[-1] - path.corners_m[0])),
+                length_m=float(np.sum(np.hypot(schedule.arcs_m, schedule.arcs_m * schedule.slopes))),
+                evaluations=path.evaluations,
+                history=tuple(cost if cost < INFEASIBLE_KM else None for cost in path.history),
+                mission=write_mission(path.corners_m, schedule, circle, scenario.frame),
+            )
+        )
+    result = FormationPlan(scenario.name, seed, method, tuple(uavs), compile_s=0.0, plan_s=0.0)
+    return result, verify(result, scenario)
+
+
+def _terms(corners_m: FloatArray, problem: PathProblem) -> FitnessTerms:
+    """The objective's terms of a path that keeps to all limits: the same in both readings."""
+    _, terms = evaluate(corners_m[1:-1].reshape(1, -1), problem, "published")
+    return FitnessTerms(*terms[0].tolist())
