@@ -1,0 +1,20 @@
+"""The command line: one command a file. Heavy packages are imported inside the commands, so that help is quick."""
+
+import typer
+
+from gcs.cli.demo import demo
+from gcs.cli.export import export
+from gcs.cli.fly import fly
+from gcs.cli.plan import plan
+from gcs.cli.sim import sim
+
+app = typer.Typer(
+    name="skein",
+    help="Plan, upload and fly formation missions for fixed-wing aircraft over MAVLink.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+for command in (demo, plan, sim, fly, export):
+    app.command()(command)

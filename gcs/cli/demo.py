@@ -1,0 +1,46 @@
+"""`skein demo`: the whole way in one go."""
+
+from gcs.cli.errors import exit_codes
+from gcs.cli.options import (
+    DelayOption,
+    JsonOption,
+    NoCorrectionsOption,
+    NoNeighboursOption,
+    OutOption,
+    ScenarioArgument,
+    SeedOption,
+    SpeedOption,
+    chosen_arm,
+)
+
+
+def demo(
+    scenario: ScenarioArgument = "radars",
+    out: OutOption = None,
+    seed: SeedOption = None,
+    delay: DelayOption = None,
+    no_corrections: NoCorrectionsOption = False,
+    no_neighbours: NoNeighboursOption = False,
+    speed: SpeedOption = 0.0,
+    json: JsonOption = False,
+) -> None:
+    """Plan a scenario, upload it to simulated vehicles over MAVLink, fly it in formation, and report.
+
+    Example: skein demo vee --delay 0.4
+    """
+    with exit_codes():
+        from gcs.cli import output
+        from gcs.cli.fly import fly_and_report
+        from gcs.cli.plan import plan_run
+        from gcs.cli.tables import plan_table
+        from gcs.flight import FlightOptions
+
+        run, loaded, plan = plan_run(scenario, out, seed)
+        if not json:
+            output.out.print(plan_table(plan))
+        options = FlightOptions(
+            delay_s=loaded.formation.delay_s if delay is None else delay,
+            arm=chosen_arm(no_corrections, no_neighbours),
+            speed=speed or float("inf"),
+        )
+        fly_and_report(run, loaded, plan, options, json)

@@ -1,0 +1,35 @@
+"""Options that several commands share."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from sitl.config import Arm
+
+ScenarioArgument = Annotated[
+    str,
+    typer.Argument(metavar="[SCENARIO|FILE]", help="A scenario that ships (mountains, radars, vee) or a TOML file."),
+]
+RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run, as made by `skein plan`.")]
+OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="New folder for the run.")]
+SeedOption = Annotated[int | None, typer.Option("--seed", min=0, help="Seed of search and gusts.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, and nothing else there.")]
+DelayOption = Annotated[
+    float | None, typer.Option("--delay", metavar="S", min=0.0, help="Delay of the corrections in seconds.")
+]
+NoCorrectionsOption = Annotated[
+    bool, typer.Option("--no-corrections", help="Fly plain autopilots: no schedule, no neighbours.")
+]
+NoNeighboursOption = Annotated[bool, typer.Option("--no-neighbours", help="Keep the own schedule, hear no neighbours.")]
+SpeedOption = Annotated[
+    float, typer.Option("--speed", metavar="X", min=0.0, help="Simulated seconds a second; 0 for as fast as it goes.")
+]
+
+
+def chosen_arm(no_corrections: bool, no_neighbours: bool) -> "Arm":
+    """How much of the formation law is on."""
+    if no_corrections:
+        return "plain"
+    return "own_schedule" if no_neighbours else "full"

@@ -1,0 +1,63 @@
+"""`skein plan`: search nine paths, verify them, keep them as a run."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from gcs.cli.errors import exit_codes
+from gcs.cli.options import JsonOption, OutOption, ScenarioArgument, SeedOption
+
+if TYPE_CHECKING:
+    from gcs.run_folder import RunFolder
+    from missions.scenario import Scenario
+    from planner.formation_plan import FormationPlan
+
+MethodOption = Annotated[str | None, typer.Option("--method", metavar="M", help="Search: pso or hybrid.")]
+
+
+def plan(
+    scenario: ScenarioArgument,
+    out: OutOption = None,
+    seed: SeedOption = None,
+    method: MethodOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Plan a path for every vehicle of a scenario and write a run.
+
+    Example: skein plan radars --out runs/first
+    """
+    with exit_codes():
+        from gcs.cli import output
+        from gcs.cli.tables import plan_table
+
+        run, _, result = plan_run(scenario, out, seed, method)
+        if json:
+            output.print_json({"run": str(run.path), **result.as_json()})
+            return
+        output.out.print(plan_table(result))
+        output.out.print(f"Run: {run.path}   (fly it: skein fly {run.path})")
+
+
+def plan_run(
+    name_or_file: str, out: Path | None, seed: int | None, method: str | None = None
+) -> "tuple[RunFolder, Scenario, FormationPlan]":
+    """Plan a scenario, showing progress on standard error, and write it to a new run.
+
+    Raises:
+        InputError: the scenario, the method or the folder cannot be used, or no path was found.
+    """
+    from gcs.cli.planning import search_with_progress
+    from gcs.run_folder import make_run_folder
+    from missions.scenario import parse_scenario, read_scenario_text
+
+    text, label = read_scenario_text(name_or_file)
+    scenario = parse_scenario(text, label)
+    run = make_run_folder(out, scenario.name)
+    try:
+        result = search_with_progress(scenario, seed, method)
+    except BaseException:
+        run.discard_if_empty()
+        raise
+    run.write_plan(text, scenario, result)
+    return run, scenario, result

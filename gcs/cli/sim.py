@@ -1,0 +1,67 @@
+"""`skein sim`: a swarm of simulated vehicles for any ground station."""
+
+from typing import Annotated
+
+import typer
+
+from gcs.cli.errors import FELL_SHORT, exit_codes
+from gcs.cli.options import ScenarioArgument, SeedOption
+
+CountOption = Annotated[int | None, typer.Option("--count", metavar="N", min=1, help="Only the first N vehicles.")]
+PaceOption = Annotated[
+    float, typer.Option("--speed", metavar="X", min=0.0, help="Simulated seconds a second; 0 for as fast as it goes.")
+]
+HeldOption = Annotated[bool, typer.Option("--held", help="Start with the clock held at simulated time 0.")]
+
+
+def sim(
+    scenario: ScenarioArgument = "radars",
+    count: CountOption = None,
+    speed: PaceOption = 1.0,
+    held: HeldOption = False,
+    seed: SeedOption = None,
+) -> None:
+    """Leave a swarm running for any station: telemetry to UDP 14550, TCP at 5760, 5770, ... Ends with Ctrl-C.
+
+    Example: skein sim vee --count 3
+    """
+    with exit_codes():
+        import time
+
+        from gcs.cli import output
+        from gcs.cli.tables import endpoint_table
+        from missions.errors import InputError
+        from missions.scenario import load_scenario
+        from sitl.swarm import Swarm, SwarmOptions
+
+        loaded = load_scenario(scenario)
+        if count is not None and count > len(loaded.vehicles):
+            raise InputError(f"--count {count}: {loaded.name} has {len(loaded.vehicles)} vehicles")
+        flown = loaded.model_copy(update={"vehicles": loaded.vehicles[:count]})
+        options = SwarmOptions(
+            seed=loaded.seed if seed is None else seed,
+            delay_s=loaded.formation.delay_s,
+            held=held,
+            speed=speed or float("inf"),
+            stations=((STATION_HOST, STATION_PORT),),
+            tcp_port=FIRST_TCP_PORT,
+        )
+        with Swarm(flown, options) as swarm:
+            output.out.print(endpoint_table(flown, swarm, STATION_PORT))
+            output.out.print("Ctrl-C ends the simulation.")
+            lost: set[int] = set()
+            while len(lost) < len(swarm.endpoints):
+                for sysid, endpoint in swarm.endpoints.items():
+                    if sysid not in lost and (reason := endpoint.obituary()):
+                        lost.add(sysid)
+                        output.progress.print(f"vehicle {sysid} lost: {reason}")
+                time.sleep(WATCH_PERIOD_S)
+            raise SystemExit(FELL_SHORT)
+
+
+STATION_HOST = "127.0.0.1"
+STATION_PORT = 14550
+"""Where ground stations listen for UDP."""
+FIRST_TCP_PORT = 5760
+"""ArduPilot SITL's; 10 more for each further vehicle."""
+WATCH_PERIOD_S = 0.5

@@ -1,0 +1,97 @@
+"""The tables that commands print for people; they fit 80 columns."""
+
+from typing import Any
+
+from rich.table import Table
+
+from missions.scenario import Scenario
+from planner.formation_plan import FormationPlan
+from sitl.swarm import Swarm
+
+
+def plan_table(plan: FormationPlan) -> Table:
+    """What each UAV's path costs and how long it is."""
+    table = _table(
+        f"Plan of {plan.scenario}, {plan.method}, seed {plan.seed}, in {plan.plan_s:.1f} s",
+        ["UAV", "f km", "f / line", "length", "terrain", "radar", "altitude"],
+    )
+    for uav in plan.uavs:
+        terms = uav.terms
+        line_km = uav.straight_line_m / 1000.0
+        table.add_row(
+            f"{uav.sysid} {uav.name}",
+            f"{terms.fitness:.2f}",
+            f"{terms.fitness / line_km:.3f}",
+            *(f"{term:.2f}" for term in (terms.length, terms.terrain, terms.radar, terms.altitude)),
+        )
+    return table
+
+
+def flight_table(metrics: dict[str, Any]) -> Table:
+    """What each vehicle did."""
+    table = _table(
+        f"Flight of {metrics['scenario']}, seed {metrics['seed']}, delay {metrics['delay_s']:g} s",
+        ["vehicle", "items", "arrival s", "late by s", "planned km", "flown km", "completed"],
+    )
+    for vehicle in metrics["vehicles"]:
+        arrival, planned = vehicle["arrival_s"], vehicle["planned_arrival_s"]
+        table.add_row(
+            f"{vehicle['sysid']} {vehicle['name']}",
+            f"{vehicle['items_verified']}/{vehicle['items_uploaded']}",
+            _shown(arrival, ".1f"),
+            "-" if arrival is None else f"{arrival - planned:+.2f}",
+            _shown(vehicle["planned_length_km"], ".2f"),
+            _shown(vehicle["flown_length_km"], ".2f"),
+            "yes" if vehicle["completed"] else "[red]no[/red]",
+        )
+    return table
+
+
+def formation_table(metrics: dict[str, Any]) -> Table:
+    """Figures of merit of the whole."""
+    formation, timing = metrics["formation"], metrics["timing"]
+    table = Table(show_header=False)
+    table.add_column()
+    table.add_column(justify="right")
+    rows = [
+        (
+            "formation error, RMS / largest",
+            f"{_shown(formation['rms_error_m'])} / {_shown(formation['max_error_m'])} m",
+        ),
+        ("arrival spread", f"{_shown(formation['arrival_spread_s'])} s"),
+        ("least separation", f"{_shown(formation['min_separation_m'], '.0f')} m"),
+        ("least clearance", f"{_shown(formation['min_clearance_m'], '.0f')} m"),
+        ("radar exposure", f"{_shown(formation['radar_exposure_s'], '.0f')} s"),
+        ("delay / margin", f"{metrics['delay_s']:g} / {_shown(formation['delay_margin_s'])} s"),
+        (
+            "planning / start-up / upload",
+            f"{timing['plan_s']:.1f} / {timing['startup_s']:.1f} / {timing['upload_s']:.1f} s",
+        ),
+        ("flight, wall time", f"{timing['flight_sim_s']:.0f} s in {timing['flight_wall_s']:.1f} s"),
+        ("times real time", f"{timing['real_time_factor']:.0f}"),
+        ("trajectory", (metrics["trajectory_sha256"] or "none")[:16]),
+    ]
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def endpoint_table(scenario: Scenario, swarm: Swarm, station_port: int) -> Table:
+    """Where each endpoint can be reached."""
+    table = _table(f"{scenario.name}: {len(swarm.endpoints)} vehicles", ["vehicle", "TCP server", "sends to"])
+    for vehicle in scenario.vehicles:
+        ready = swarm.endpoints[vehicle.sysid].ready
+        port = ready.tcp_port if ready else 0
+        table.add_row(f"{vehicle.sysid} {vehicle.name}", f"127.0.0.1:{port}", f"UDP 127.0.0.1:{station_port}")
+    return table
+
+
+def _table(title: str, headings: list[str]) -> Table:
+    table = Table(title=title, title_justify="left")
+    for i, heading in enumerate(headings):
+        table.add_column(heading, justify="left" if i == 0 else "right")
+    return table
+
+
+def _shown(value: float | None, form: str = ".2f") -> str:
+    return "-" if value is None else format(value, form)

@@ -1,0 +1,180 @@
+"""Flying a plan on simulated endpoints: launch, upload, verify, arm, release, watch, end."""
+
+import asyncio
+import contextlib
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from gcs.fleet import Fleet
+from gcs.flight_record import Event, FlightRecord, Timing
+from gcs.links.udp import UdpLink
+from gcs.run_folder import RunFolder
+from gcs.swarm_clock import SwarmClock
+from gcs.tlog import TelemetryLog
+from gcs.transfers.command import arm, set_mode
+from gcs.transfers.run import upload_and_verify
+from gcs.vehicle_link import VehicleLink
+from gcs.watch import Display, VehicleStatus, watch_flight
+from missions.errors import InputError
+from missions.scenario import Scenario
+from planner.formation_plan import FormationPlan
+from planner.verify import require, verify
+from sitl.config import Arm
+from sitl.endpoint import Ended
+from sitl.formation.graph import edges, laplacian
+from sitl.formation.law import Gains
+from sitl.formation.margin import aircraft_margin_s
+from sitl.modes import Mode
+from sitl.services.links import LOOPBACK
+from sitl.swarm import Swarm, SwarmOptions
+from sitl.ticks import TICK_S, delay_ticks
+from sitl.zenoh_session import open_session
+
+HEARTBEAT_TIMEOUT_S = 30.0
+
+
+@dataclass(frozen=True)
+class FlightOptions:
+    """How a plan is flown.
+
+    Attributes:
+        delay_s: of the corrections; rounded up to whole ticks.
+        arm: how much of the formation law is on.
+        speed: factor of simulated time; infinite for as fast as it goes.
+    """
+
+    delay_s: float
+    arm: Arm = "full"
+    speed: float = math.inf
+
+
+Announce = Callable[[str], None]
+"""Called with each step of a flight, for people to read."""
+
+
+async def fly(
+    scenario: Scenario,
+    plan: FormationPlan,
+    run: RunFolder,
+    options: FlightOptions,
+    announce: Announce,
+    display: Display,
+) -> FlightRecord:
+    """Fly a plan on the scenario's simulated vehicles; truth and logs go to the run's folder.
+
+    Raises:
+        InputError: the plan does not verify, or an endpoint cannot start or be reached.
+        TransferError: a mission could not be brought to a vehicle.
+    """
+    require(verify(scenario, plan))
+    run.begin_flight()
+    sysids = [uav.sysid for uav in plan.uavs]
+    start_s = time.time()
+    async with contextlib.AsyncExitStack() as stack:
+        fleet = await stack.enter_async_context(Fleet(lambda sysid: TelemetryLog(run.logs / f"{sysid}.tlog", start_s)))
+        link = await UdpLink.open()
+        fleet.attach(link)
+
+        announce(f"Launching {len(sysids)} endpoints")
+        began = time.monotonic()
+        swarm = stack.enter_context(Swarm(scenario, _swarm_options(plan, run, options, link.port)))
+        vehicles = await fleet.wait_for(sysids, HEARTBEAT_TIMEOUT_S)
+        startup_s = time.monotonic() - began
+        run.write_json("endpoints.json", _addresses(swarm, link.port))
+
+        announce("Uploading missions and reading them back")
+        began = time.monotonic()
+        verified = await asyncio.gather(
+            *(upload_and_verify(vehicle, uav.mission) for vehicle, uav in zip(vehicles, plan.uavs, strict=True))
+        )
+        upload_s = time.monotonic() - began
+
+        announce("Arming, AUTO")
+        await asyncio.gather(*(_arm_in_auto(vehicle) for vehicle in vehicles))
+
+        announce("Releasing the clock")
+        began = time.monotonic()
+        events, lost = await _fly_held(scenario, plan, swarm, vehicles, display)
+        flight_wall_s = time.monotonic() - began
+
+    flight_sim_s = max(vehicle.simulated_ms for vehicle in vehicles) / 1000.0
+    return FlightRecord(
+        seed=plan.seed,
+        delay_s=delay_ticks(options.delay_s) * TICK_S,
+        arm=options.arm,
+        items_uploaded={uav.sysid: len(uav.mission) for uav in plan.uavs},
+        items_verified=dict(zip(sysids, verified, strict=True)),
+        timing=Timing(
+            compile_s=plan.compile_s,
+            plan_s=plan.plan_s,
+            startup_s=startup_s,
+            upload_s=upload_s,
+            flight_wall_s=flight_wall_s,
+            flight_sim_s=flight_sim_s,
+            real_time_factor=flight_sim_s / flight_wall_s,
+        ),
+        events=tuple(events),
+        lost=lost,
+        late_samples=0,  # in lockstep a vehicle waits for what it needs
+        lost_samples=sum(e.last.rejected_samples for e in swarm.endpoints.values() if isinstance(e.last, Ended)),
+        delay_margin_s=delay_margin_s(scenario),
+    )
+
+
+def delay_margin_s(scenario: Scenario) -> float:
+    """The `aircraft` delay margin of a scenario's formation (MODEL, section 6); infinite when it has none."""
+    formation = scenario.formation
+    sysids = [vehicle.sysid for vehicle in scenario.vehicles]
+    gains = Gains(formation.k1, formation.k2, formation.k3, formation.k0)
+    matrix = laplacian(sysids, edges(formation.graph, sysids))
+    return aircraft_margin_s(matrix, gains, scenario.airframe.thrust_lag_s, TICK_S)
+
+
+def _swarm_options(plan: FormationPlan, run: RunFolder, options: FlightOptions, port: int) -> SwarmOptions:
+    return SwarmOptions(
+        seed=plan.seed,
+        delay_s=options.delay_s,
+        arm=options.arm,
+        speed=options.speed,
+        stations=((LOOPBACK, port),),
+        truth=run.truth,
+    )
+
+
+async def _arm_in_auto(vehicle: VehicleLink) -> None:
+    await arm(vehicle)
+    await set_mode(vehicle, Mode.AUTO)
+
+
+async def _fly_held(
+    scenario: Scenario, plan: FormationPlan, swarm: Swarm, vehicles: list[VehicleLink], display: Display
+) -> tuple[list[Event], dict[int, float]]:
+    """Release the clocks, watch, and stop them; returns the events and when each lost vehicle was lost."""
+    references = plan.references(scenario)
+    statuses = [
+        VehicleStatus(uav.sysid, uav.name, references[uav.sysid].duration_s, len(uav.mission)) for uav in plan.uavs
+    ]
+    with open_session(swarm.station_peer) as session:
+        clock = SwarmClock(session, swarm.name)
+        await asyncio.to_thread(clock.release, swarm.endpoints)
+        links = {vehicle.sysid: vehicle for vehicle in vehicles}
+        events = await watch_flight(statuses, links, swarm.endpoints, display)
+        lost = {status.sysid: status.time_s for status in statuses if status.lost is not None}
+        with contextlib.suppress(InputError):  # who does not answer is ended with the swarm
+            await asyncio.to_thread(clock.stop, swarm.endpoints.keys() - lost.keys())
+    return events, lost
+
+
+def _addresses(swarm: Swarm, port: int) -> dict[str, object]:
+    """What endpoints.json says: where the station and each vehicle can be reached while they fly."""
+    ready = {sysid: endpoint.ready for sysid, endpoint in swarm.endpoints.items()}
+    return {
+        "station_udp_port": port,
+        "vehicles": [
+            {"sysid": sysid, "tcp_port": ports.tcp_port, "udp_port": ports.udp_port}
+            for sysid, ports in ready.items()
+            if ports is not None
+        ],
+    }

@@ -1,0 +1,152 @@
+"""A run: one folder with a scenario, its plan, its flight and what came of it.
+
+RUN/{scenario.toml, plan.json, endpoints.json, missions/, logs/<sysid>.tlog, truth/<sysid>.f64, metrics.json, figures/}
+"""
+
+import contextlib
+import itertools
+import json
+import shutil
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from missions.errors import InputError
+from missions.formats.qgc_plan import write_plan
+from missions.formats.waypoints import write_waypoints
+from missions.scenario import Scenario, parse_scenario
+from planner.formation_plan import FormationPlan, load_plan
+
+RUNS = Path("runs")
+"""Where runs go that are given no folder."""
+
+
+@dataclass(frozen=True)
+class RunFolder:
+    """The folder of one run."""
+
+    path: Path
+
+    @property
+    def truth(self) -> Path:
+        """Folder of the endpoints' truth."""
+        return self.path / "truth"
+
+    @property
+    def logs(self) -> Path:
+        """Folder of the vehicles' telemetry logs."""
+        return self.path / "logs"
+
+    @property
+    def figures(self) -> Path:
+        """Folder of the pictures."""
+        return self.path / "figures"
+
+    def discard_if_empty(self) -> None:
+        """Remove the folder again when nothing came of it."""
+        with contextlib.suppress(OSError):
+            self.path.rmdir()
+
+    def write_plan(self, scenario_text: str, scenario: Scenario, plan: FormationPlan) -> None:
+        """Keep a scenario and its plan, with each vehicle's mission as files for other stations.
+
+        Raises:
+            InputError: the folder cannot be written to.
+        """
+        try:
+            (self.path / "scenario.toml").write_text(scenario_text, encoding="utf-8")
+            plan.save(self.path / "plan.json")
+            missions = self.path / "missions"
+            missions.mkdir(exist_ok=True)
+        except OSError as error:
+            raise _unwritable(self.path, error) from None
+        for file_format in ("plan", "waypoints"):
+            export_missions(scenario, plan, file_format, missions)
+
+    def read(self) -> tuple[Scenario, FormationPlan]:
+        """The scenario and the plan of this run.
+
+        Raises:
+            InputError: this is no run, or its files cannot be used.
+        """
+        file = self.path / "scenario.toml"
+        try:
+            text = file.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
+            raise InputError(f"{file}: {reason}; is {self.path} a run? `skein plan` makes one") from None
+        return parse_scenario(text, str(file)), load_plan(self.path / "plan.json")
+
+    def begin_flight(self) -> None:
+        """Make room for a flight; an earlier one of this run is removed.
+
+        Raises:
+            InputError: the folder cannot be written to.
+        """
+        try:
+            for folder in (self.truth, self.logs, self.figures):
+                shutil.rmtree(folder, ignore_errors=True)
+                folder.mkdir()
+            for name in ("metrics.json", "endpoints.json"):
+                (self.path / name).unlink(missing_ok=True)
+        except OSError as error:
+            raise _unwritable(self.path, error) from None
+
+    def write_json(self, name: str, values: Any) -> None:
+        """Write a JSON file of the run. Raises InputError when it cannot be written."""
+        text = json.dumps(values, indent=1, allow_nan=False) + "\n"
+        try:
+            (self.path / name).write_text(text, encoding="utf-8")
+        except OSError as error:
+            raise _unwritable(self.path / name, error) from None
+
+
+def make_run_folder(out: Path | None, scenario_name: str) -> RunFolder:
+    """A new folder for a run.
+
+    Args:
+        out: the folder, new or empty; None for one under `RUNS` named after scenario and time.
+
+    Raises:
+        InputError: it cannot be made, or holds something.
+    """
+    if out is None:
+        stamp = time.strftime("%Y%m%d-%H%M%S")
+        names = itertools.chain([""], (f"-{i}" for i in itertools.count(2)))
+        candidates = (RUNS / f"{scenario_name}-{stamp}{name}" for name in names)
+    else:
+        candidates = iter([out])
+    for path in candidates:
+        try:
+            path.mkdir(parents=True, exist_ok=out is not None)
+            if any(path.iterdir()):
+                raise InputError(f"{path}: is not empty; name a new folder with --out")
+            return RunFolder(path)
+        except FileExistsError:
+            if out is not None:
+                raise InputError(f"{path}: is a file; name a folder with --out") from None
+        except OSError as error:
+            raise _unwritable(path, error) from None
+    raise AssertionError("there is always another name")
+
+
+def export_missions(scenario: Scenario, plan: FormationPlan, file_format: str, folder: Path) -> list[Path]:
+    """Write each vehicle's mission in one format ("plan" or "waypoints") as <sysid>-<name>.<format>.
+
+    Raises:
+        InputError: a file cannot be written.
+    """
+    written = []
+    for uav in plan.uavs:
+        path = folder / f"{uav.sysid}-{uav.name}.{file_format}"
+        if file_format == "plan":
+            write_plan(uav.mission, path, cruise_speed_m_s=scenario.airframe.airspeed_cruise_m_s)
+        else:
+            write_waypoints(uav.mission, path)
+        written.append(path)
+    return written
+
+
+def _unwritable(path: Path, error: OSError) -> InputError:
+    return InputError(f"{path}: {error.strerror}; choose a folder that can be written to with --out")

@@ -1,0 +1,109 @@
+"""Watching a flight: what each vehicle does, who has arrived, who was lost, and when to stop."""
+
+import asyncio
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from gcs.flight_record import Event
+from gcs.vehicle_link import VehicleLink
+from sitl.modes import Mode
+from sitl.swarm import Endpoint
+
+PERIOD_S = 0.1
+OVERTIME_S = 120.0
+"""A vehicle that has not arrived so long after its plan, in simulated time, is waited for no longer."""
+STALL_S = 30.0
+"""Nor is a swarm whose simulated time has stood still for so long, in wall time."""
+
+
+@dataclass
+class VehicleStatus:
+    """What the station knows of one vehicle in flight.
+
+    Attributes:
+        planned_arrival_s: simulated time.
+        items: of its mission.
+        time_s: newest simulated time heard of.
+        arrived, lost: how it ended; `lost` says why.
+    """
+
+    sysid: int
+    name: str
+    planned_arrival_s: float
+    items: int
+    time_s: float = 0.0
+    mode: str = ""
+    item: int = 0
+    airspeed_m_s: float = 0.0
+    altitude_m: float = 0.0
+    cross_track_m: float = 0.0
+    arrived: bool = False
+    lost: str | None = None
+
+    @property
+    def ended(self) -> bool:
+        """Whether there is nothing more to wait for."""
+        return self.arrived or self.lost is not None
+
+    def update(self, link: VehicleLink) -> None:
+        """Take over the newest telemetry."""
+        self.time_s = link.simulated_ms / 1000.0
+        if heartbeat := link.latest.get("HEARTBEAT"):
+            self.mode = Mode(heartbeat.custom_mode).name
+        if hud := link.latest.get("VFR_HUD"):
+            self.airspeed_m_s, self.altitude_m = hud.airspeed, hud.alt
+        if navigation := link.latest.get("NAV_CONTROLLER_OUTPUT"):
+            self.cross_track_m = navigation.xtrack_error
+        if current := link.latest.get("MISSION_CURRENT"):
+            self.item = current.seq
+            self.arrived = current.mission_state == mavlink.MISSION_STATE_COMPLETE
+
+
+Display = Callable[[list[VehicleStatus]], None]
+
+
+async def watch_flight(
+    statuses: list[VehicleStatus],
+    links: Mapping[int, VehicleLink],
+    endpoints: Mapping[int, Endpoint],
+    display: Display,
+) -> list[Event]:
+    """Watch until every vehicle has arrived or was lost, or it is no use to wait longer.
+
+    Args:
+        statuses: one a vehicle; kept up to date.
+        links, endpoints: of the vehicles, by sysid.
+        display: called ten times a second with the statuses.
+
+    Returns:
+        What happened, in order.
+    """
+    events: list[Event] = []
+    newest_s, moved_at = -1.0, time.monotonic()
+    while True:
+        for status in statuses:
+            if status.ended:
+                continue
+            status.update(links[status.sysid])
+            status.lost = endpoints[status.sysid].obituary()
+            if status.lost is not None:
+                status.arrived = False
+                events.append(Event(status.time_s, status.sysid, f"lost: {status.lost}"))
+            elif status.arrived:
+                events.append(Event(status.time_s, status.sysid, "arrived"))
+        display(statuses)
+        flying = [status for status in statuses if not status.ended]
+        if not flying:
+            return events
+        if min(status.time_s - status.planned_arrival_s for status in flying) > OVERTIME_S:
+            events.extend(Event(status.time_s, status.sysid, "did not arrive in time") for status in flying)
+            return events
+        if (now_s := max(status.time_s for status in flying)) > newest_s:
+            newest_s, moved_at = now_s, time.monotonic()
+        if time.monotonic() - moved_at > STALL_S:
+            events.extend(Event(status.time_s, status.sysid, f"silent for {STALL_S:g} s") for status in flying)
+            return events
+        await asyncio.sleep(PERIOD_S)
