@@ -1,0 +1,66 @@
+"""What a flight was and what became of it, as far as the truth does not tell: figures of merit are made of both."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from sitl.config import Arm
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened, at a simulated time; `sysid` is None when it happened to no single vehicle."""
+
+    t_s: float
+    sysid: int | None
+    what: str
+
+
+@dataclass(frozen=True)
+class Timing:
+    """How long things took: wall time, but for `flight_sim_s`.
+
+    Attributes:
+        compile_s, plan_s: compilation, and planning without it.
+        startup_s: from the launch to the last endpoint's first heartbeat.
+        upload_s: all missions, read-back included.
+        flight_wall_s, flight_sim_s: from the release of the clock to the end.
+        real_time_factor: flight_sim_s / flight_wall_s.
+    """
+
+    compile_s: float
+    plan_s: float
+    startup_s: float
+    upload_s: float
+    flight_wall_s: float
+    flight_sim_s: float
+    real_time_factor: float
+
+
+@dataclass(frozen=True)
+class FlightRecord:
+    """One flight of a plan.
+
+    Attributes:
+        seed: of the plan and of the gusts.
+        delay_s: effective delay of the corrections.
+        arm: how much of the formation law was on.
+        items_uploaded, items_verified: mission items by sysid: sent, and read back equal.
+        timing: how long things took.
+        events: in order of time.
+        lost: when a vehicle was lost, by sysid; simulated time in seconds.
+        late_samples: corrections that a vehicle needed and did not have.
+        lost_samples: corrections that a vehicle could not use.
+        delay_margin_s: the `aircraft` margin of the formation; infinite when any delay is stable.
+    """
+
+    seed: int
+    delay_s: float
+    arm: Arm
+    items_uploaded: Mapping[int, int]
+    items_verified: Mapping[int, int]
+    timing: Timing
+    events: tuple[Event, ...]
+    lost: Mapping[int, float]
+    late_samples: int
+    lost_samples: int
+    delay_margin_s: float
