@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from missions.errors import InputError
 from missions.scenario import Scenario, VehicleModel
-from planner.cost.kernel import INFEASIBLE_KM, Reading, evaluate, with_progress
+from planner.cost.constraints import with_progress
+from planner.cost.kernel import INFEASIBLE_KM, Reading, evaluate
 from planner.cost.problem import PLANNING_MARGINS, PathProblem, path_problem
 from planner.first_paths import box, first_paths
 from planner.limits import airspeed_range_m_s

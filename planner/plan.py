@@ -11,7 +11,8 @@ import numpy.typing as npt
 from missions.errors import InputError
 from missions.reference.reference import fillet_radius_m
 from missions.scenario import Scenario
-from planner.cost.kernel import INFEASIBLE_KM, evaluate, with_progress
+from planner.cost.constraints import with_progress
+from planner.cost.kernel import INFEASIBLE_KM, evaluate
 from planner.cost.problem import NO_MARGINS, PathProblem, path_problem
 from planner.find_path import SEARCHES, PathFound, find_path, require_feasible
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan

@@ -1,6 +1,7 @@
 """What a vehicle is told: corners and airspeeds as a mission."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -33,15 +34,18 @@ def write_mission(corners_m: FloatArray, schedule: Schedule, circle: Circle, fra
         frame: the scenario's local frame. All altitudes are AMSL.
     """
 
-    def item(command: Command, x_m: float, y_m: float, z_m: float, *params: float) -> MissionItem:
-        lat_e7, lon_e7 = frame.to_e7(x_m, y_m)
-        given = (*params, 0.0, 0.0, 0.0, 0.0)[:4]
-        return MissionItem(command, Frame.GLOBAL, *given, lat_e7, lon_e7, z_m + frame.alt_m)
+    def item(
+        command: Command, at_m: Sequence[float], param1: float = 0.0, param2: float = 0.0, param3: float = 0.0
+    ) -> MissionItem:
+        x, y, z = at_m
+        lat_e7, lon_e7 = frame.to_e7(x, y)
+        alt_m = z + frame.alt_m
+        return MissionItem(command, Frame.GLOBAL, param1, param2, param3, lat_e7=lat_e7, lon_e7=lon_e7, alt_m=alt_m)
 
-    x, y, z = corners_m[0]
+    x, y, z = corners_m[0].tolist()
     items = [
-        item(Command.NAV_WAYPOINT, x, y, z),
-        item(Command.NAV_TAKEOFF, x, y, z + TAKEOFF_ALTITUDE_M, TAKEOFF_PITCH_DEG),
+        item(Command.NAV_WAYPOINT, (x, y, z)),
+        item(Command.NAV_TAKEOFF, (x, y, z + TAKEOFF_ALTITUDE_M), param1=TAKEOFF_PITCH_DEG),
     ]
     acceptances = acceptance_radii_m(corners_m, fillet_radius_m(float(schedule.ground_m_s.max())))
     told = None
@@ -50,8 +54,8 @@ def write_mission(corners_m: FloatArray, schedule: Schedule, circle: Circle, fra
         if change != told:
             items.append(change)
             told = change
-        items.append(item(Command.NAV_WAYPOINT, *corner.tolist(), 0.0, acceptance))
-    items.append(item(Command.NAV_LOITER_UNLIM, circle.x_m, circle.y_m, circle.z_m, 0.0, 0.0, circle.radius_m))
+        items.append(item(Command.NAV_WAYPOINT, corner.tolist(), param2=acceptance))
+    items.append(item(Command.NAV_LOITER_UNLIM, (circle.x_m, circle.y_m, circle.z_m), param3=circle.radius_m))
     return Mission(tuple(items))
 
 

@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from missions.environment import Terrain
 from planner.compiled import jit, parallel_jit, prange
+from planner.cost.constraints import broken_limits
 from planner.cost.obstacles import least_wall_distance_m
 from planner.cost.problem import PathProblem
 from planner.cost.radar import radar_integral_m
@@ -17,12 +18,10 @@ from planner.cost.terrain import leg_clearance_m
 FloatArray = npt.NDArray[np.float64]
 Reading = Literal["graded", "published"]
 
+TOUCH_M = 1e-6
+"""Shortfalls below this are rounding: an origin stands on the ground, exactly as high as wanted."""
 INFEASIBLE_KM = 1e9
 """Added to the cost of every infeasible path, so that it ranks after every feasible one."""
-SLOPE_UNIT = 0.1
-"""Slopes beyond their limits count in these; the limits themselves may be 0."""
-SHORT_M = 1e-6
-"""Stands for the length of a leg without any."""
 
 
 def evaluate(interiors: FloatArray, problem: PathProblem, reading: Reading) -> tuple[FloatArray, FloatArray]:
@@ -81,7 +80,7 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
     bounds = problem.bounds
     legs = len(corners) - 1
     arcs = np.empty(legs)
-    violations, excess = _limits(corners, bounds, arcs)
+    broken, excess = broken_limits(corners, bounds, arcs)
     passed = np.zeros(legs + 1)
     for k in range(legs):
         passed[k + 1] = passed[k] + arcs[k]
@@ -98,11 +97,11 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
             p, q, passed[k], passed[k + 1], problem.terrain, bounds.clearance_m, bounds.climb_out_m
         )
         least_sum += least
-        if least < 0.0:
+        if least < -TOUCH_M:
             underground += 1
             depth -= least
-        if shortfall > 0.0:
-            violations += 1
+        if shortfall > TOUCH_M:
+            broken += 1
             excess += shortfall / 1000.0
 
         for i in range(len(problem.radars)):
@@ -111,7 +110,6 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
         for i in range(len(problem.obstacles)):
             missing = problem.obstacles[i, 4] - least_wall_distance_m(p, q, problem.obstacles[i])
             if missing > 0.0:
-                violations += 1
                 collision += 1.0 + (missing / 1000.0 if graded else 0.0)
 
         start, end = passed[k] / passed[legs], passed[k + 1] / passed[legs]
@@ -119,7 +117,6 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
             distance, other_legs[i] = least_separation_m(p, q, start, end, problem.others[i], other_legs[i])
             missing = problem.separations_m[i] - distance
             if missing > 0.0:
-                violations += 1
                 collision += 1.0 + (missing / 1000.0 if graded else 0.0)
 
     terms[0] = length / 1000.0
@@ -127,15 +124,14 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
         terms[1] = bounds.terrain_constant_km2 * legs / max(least_sum / 1000.0, 1e-9)
     else:
         terms[1] = bounds.terrain_penalty_km * (1.0 + (depth / 1000.0 if graded else 0.0))
-        violations += 1
     terms[2] = radar / 1000.0
     terms[3] = bounds.collision_penalty_km * collision
     terms[4] = _altitude_deviation_m(corners) / 1000.0
     f: float = terms[0] + terms[1] + terms[2] + terms[3] + terms[4]
-    if violations == 0:
+    if broken == 0 and underground == 0 and collision == 0.0:
         return min(f, 0.5 * INFEASIBLE_KM)
     if graded:
-        f += bounds.collision_penalty_km * (violations + excess)
+        f += bounds.collision_penalty_km * (broken + excess)
     return INFEASIBLE_KM + f
 
 
@@ -149,64 +145,3 @@ def _altitude_deviation_m(corners: Any) -> float:
     for k in range(len(corners)):
         squares += (corners[k, 2] - mean) * (corners[k, 2] - mean)
     return math.sqrt(squares / (len(corners) - 1))
-
-
-@jit
-def _limits(corners: Any, bounds: Any, arcs: Any) -> tuple[int, float]:
-    """Violations of the box (1) and the constraints (12), and by how much in all, relative to each limit.
-
-    Fills in `arcs`: horizontal length of each leg between the middles of the fillets at its ends. Slopes are along
-    those, as the aircraft flies them.
-    """
-    legs = len(corners) - 1
-    violations = 0
-    excess = 0.0
-    for k in range(1, legs):
-        x, y, z = corners[k, 0], corners[k, 1], corners[k, 2]
-        outside = max(0.0, bounds.x_min_m - x, x - bounds.x_max_m) + max(0.0, bounds.y_min_m - y, y - bounds.y_max_m)
-        outside += max(0.0, bounds.z_min_m - z, z - bounds.z_max_m)
-        if outside > 0.0:
-            violations += 1
-            excess += outside / 1000.0
-
-    dx, dy = corners[1, 0] - corners[0, 0], corners[1, 1] - corners[0, 1]
-    across = max(math.sqrt(dx * dx + dy * dy), SHORT_M)
-    trim_before = 0.0
-    for k in range(legs):
-        room = across if k == 0 else across / 2.0
-        turn = trim = tangent = 0.0
-        across_next = across
-        if k + 1 < legs:
-            dx_next, dy_next = corners[k + 2, 0] - corners[k + 1, 0], corners[k + 2, 1] - corners[k + 1, 1]
-            across_next = max(math.sqrt(dx_next * dx_next + dy_next * dy_next), SHORT_M)
-            room = min(room, across_next if k + 2 == legs else across_next / 2.0)
-            turn = abs(math.atan2(dx * dy_next - dy * dx_next, dx * dx_next + dy * dy_next))
-            half_tangent = math.tan(turn / 2.0)
-            tangent = bounds.fillet_radius_m * half_tangent
-            trim = min(tangent, room) * (1.0 - turn / (2.0 * half_tangent) if half_tangent > 1e-6 else 0.0)
-            dx, dy = dx_next, dy_next
-        dz = corners[k + 1, 2] - corners[k, 2]
-        length = math.sqrt(across * across + dz * dz)
-        arcs[k] = max(across - trim_before - trim, SHORT_M)
-        slope = dz / arcs[k]
-        for over in (
-            1.0 - length / bounds.leg_min_m,
-            length / bounds.leg_max_m - 1.0,
-            turn / bounds.turn_max - 1.0,
-            min(tangent / room - 1.0, 10.0),
-            min((slope - bounds.slope_max) / SLOPE_UNIT, 10.0),
-            min((bounds.slope_min - slope) / SLOPE_UNIT, 10.0),
-        ):
-            if over > 0.0:
-                violations += 1
-                excess += over
-        across, trim_before = across_next, trim
-    return violations, excess
-
-
-def with_progress(corners_m: FloatArray, problem: PathProblem) -> FloatArray:
-    """(m, 4) corners of a path and the part of the flight after which each is passed, for `PathProblem.others`."""
-    arcs = np.empty(len(corners_m) - 1)
-    _limits(corners_m, problem.bounds, arcs)
-    passed = np.concatenate([[0.0], np.cumsum(arcs)])
-    return np.column_stack([corners_m, passed / passed[-1]])

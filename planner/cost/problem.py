@@ -28,7 +28,7 @@ class Margins(NamedTuple):
 
     obstacle_m: float = 45.0
     separation_m: float = 100.0
-    clearance_m: float = 25.0
+    clearance_m: float = 30.0
 
 
 NO_MARGINS = Margins(0.0, 0.0, 0.0)

@@ -6,7 +6,7 @@ from typing import Any
 from missions.environment.terrain import ground_height_m
 from planner.compiled import compile_shared, jit
 
-DIP_M = 3.0
+DIP_M = 5.0
 
 _ground_height_m = compile_shared(ground_height_m)
 
