@@ -68,7 +68,7 @@ async def fly(
         InputError: the plan does not verify, or an endpoint cannot start or be reached.
         TransferError: a mission could not be brought to a vehicle.
     """
-    require(verify(scenario, plan))
+    require(verify(plan, scenario))
     run.begin_flight()
     sysids = [uav.sysid for uav in plan.uavs]
     start_s = time.time()

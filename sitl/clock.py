@@ -34,6 +34,11 @@ class Clock:
         self._changed = threading.Condition()
         self._anchor: tuple[int, float] | None = None
 
+    @property
+    def paced(self) -> bool:
+        """Whether it keeps to a speed, rather than going as fast as it can."""
+        return not math.isinf(self.speed)
+
     def wait_for(self, tick: int) -> bool:
         """Wait until a tick may begin; False when the clock has been stopped."""
         with self._changed:
@@ -51,7 +56,7 @@ class Clock:
 
     def _early_s(self, tick: int) -> float:
         """How long before its time a tick would begin now."""
-        if math.isinf(self.speed):
+        if not self.paced:
             return 0.0
         now = time.monotonic()
         if self._anchor is None:
@@ -101,7 +106,7 @@ def serve_clock(session: zenoh.Session, swarm: str, sysid: int, clock: Clock) ->
         except (ValueError, TypeError, AttributeError) as error:
             query.reply_err(f"vehicle {sysid}: {error}")
             return
-        speed = 0.0 if math.isinf(clock.speed) else clock.speed
+        speed = clock.speed if clock.paced else 0.0
         state = {"sysid": sysid, "tick": clock.tick, "held": clock.held, "speed": speed, "stopped": clock.stopped}
         query.reply(clock_key(swarm), json.dumps(state))
 

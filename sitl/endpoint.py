@@ -137,7 +137,8 @@ def _fly(vehicle: Vehicle, face: MavlinkFace, exchange: Exchange, clock: Clock, 
     while clock.wait_for(vehicle.tick):
         with vehicle.lock:
             own = vehicle.observe()
-        exchange.publish(own)
+        # A neighbour needs a sample only `delay_ticks` later: as fast as it goes, that many share a message.
+        exchange.publish(own, now=clock.paced or (own.tick + 1) % delay_ticks == 0)
         heard = exchange.gather(own.tick - delay_ticks)
         if clock.stopped:
             return

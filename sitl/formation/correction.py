@@ -1,6 +1,7 @@
 """What a vehicle tells its neighbours: its deviation from its own plan, stamped with its tick.
 
-The layout on the wire, version 1, 40 bytes, little-endian:
+A message on the wire holds one sample or several of consecutive ticks. The layout of a sample, version 1, 40 bytes,
+little-endian:
 
 | offset | type | field |
 |---|---|---|
@@ -42,17 +43,19 @@ def encode(sample: Correction) -> bytes:
     )
 
 
-def decode(payload: bytes) -> Correction:
-    """The sample in a payload.
+def decode(payload: bytes) -> list[Correction]:
+    """The samples in a message.
 
     Raises:
-        ValueError: it is no sample of this version; the message says why.
+        ValueError: it does not consist of samples of this version; the message says why.
     """
-    if len(payload) != _LAYOUT.size:
-        raise ValueError(f"{len(payload)} bytes, not {_LAYOUT.size}")
-    magic, version, flags, sysid, tick, sequence, along, along_rate = _LAYOUT.unpack(payload)
-    if magic != b"SK" or version != VERSION:
-        raise ValueError(f"not a correction of version {VERSION}")
-    if not (math.isfinite(along) and math.isfinite(along_rate)):
-        raise ValueError("not finite")
-    return Correction(sysid, tick, sequence, bool(flags & _IN_FORMATION), along, along_rate)
+    if not payload or len(payload) % _LAYOUT.size:
+        raise ValueError(f"{len(payload)} bytes, not a multiple of {_LAYOUT.size}")
+    samples = []
+    for magic, version, flags, sysid, tick, sequence, along, along_rate in _LAYOUT.iter_unpack(payload):
+        if magic != b"SK" or version != VERSION:
+            raise ValueError(f"not a correction of version {VERSION}")
+        if not (math.isfinite(along) and math.isfinite(along_rate)):
+            raise ValueError("not finite")
+        samples.append(Correction(sysid, tick, sequence, bool(flags & _IN_FORMATION), along, along_rate))
+    return samples

@@ -9,8 +9,8 @@ import zenoh
 from sitl.formation.correction import Correction, decode, encode
 from sitl.zenoh_session import alive_key, correction_key
 
-_Message = tuple[int, Correction | bool | None]
-"""From a neighbour: its sample, whether it is there, or None for a payload that is no sample."""
+_Message = tuple[int, bytes | bool]
+"""From a neighbour: a message, or whether it is there."""
 
 
 class Exchange:
@@ -26,7 +26,7 @@ class Exchange:
         neighbours: sysids to listen to.
 
     Attributes:
-        rejected: payloads that were no samples.
+        rejected: messages that were not a neighbour's samples.
         gone: neighbours that have been there and are no more.
     """
 
@@ -38,6 +38,7 @@ class Exchange:
         self._stopped = False
         self._samples: dict[int, dict[int, Correction]] = {neighbour: {} for neighbour in self.neighbours}
         self._newest = dict.fromkeys(self.neighbours, -1)
+        self._unsent: list[bytes] = []
         # Zenoh's threads only put into the inbox; everything else is the caller's thread's.
         self._inbox: queue.SimpleQueue[_Message | None] = queue.SimpleQueue()
         self._publisher = session.declare_publisher(
@@ -69,9 +70,12 @@ class Exchange:
                 return missing
         return set()
 
-    def publish(self, sample: Correction) -> None:
-        """Tell the neighbours the own deviation."""
-        self._publisher.put(encode(sample))
+    def publish(self, sample: Correction, *, now: bool) -> None:
+        """Tell the neighbours the own deviation: now, or together with later ones in one message."""
+        self._unsent.append(encode(sample))
+        if now:
+            self._publisher.put(b"".join(self._unsent))
+            self._unsent.clear()
 
     def gather(self, tick: int) -> dict[int, Correction]:
         """The samples of a tick, waited for, of all neighbours that are there; none when `stop` was called."""
@@ -93,30 +97,29 @@ class Exchange:
             self._stopped = True
             return
         neighbour, content = message
-        if content is None:
-            self.rejected += 1
-        elif content is True:
+        if content is True:
             self._present.add(neighbour)
         elif content is False:
             self._present.discard(neighbour)
             self.gone.add(neighbour)
         else:
-            self._samples[neighbour][content.tick] = content
-            self._newest[neighbour] = max(self._newest[neighbour], content.tick)
+            self._take_samples(neighbour, content)
+
+    def _take_samples(self, neighbour: int, payload: bytes) -> None:
+        try:
+            samples = decode(payload)
+        except ValueError:
+            self.rejected += 1
+            return
+        if any(sample.sysid != neighbour for sample in samples):
+            self.rejected += 1
+            return
+        for sample in samples:
+            self._samples[neighbour][sample.tick] = sample
+            self._newest[neighbour] = max(self._newest[neighbour], sample.tick)
 
     def _sample_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:
-        def put(sample: zenoh.Sample) -> None:
-            try:
-                correction = decode(sample.payload.to_bytes())
-            except ValueError:
-                self._inbox.put((neighbour, None))
-                return
-            self._inbox.put((neighbour, correction if correction.sysid == neighbour else None))
-
-        return put
+        return lambda sample: self._inbox.put((neighbour, sample.payload.to_bytes()))
 
     def _liveliness_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:
-        def put(sample: zenoh.Sample) -> None:
-            self._inbox.put((neighbour, sample.kind == zenoh.SampleKind.PUT))
-
-        return put
+        return lambda sample: self._inbox.put((neighbour, sample.kind == zenoh.SampleKind.PUT))

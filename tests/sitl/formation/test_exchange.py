@@ -1,0 +1,107 @@
+"""Corrections over real Zenoh sessions: waited for in lockstep, and no longer when a neighbour has gone."""
+
+import threading
+from collections.abc import Iterator
+from contextlib import ExitStack
+
+import pytest
+import zenoh
+
+from sitl.formation.correction import Correction
+from sitl.formation.exchange import Exchange
+from sitl.zenoh_session import alive_key, correction_key, discard_sockets, local_peers, open_session
+
+SWARM = "test"
+
+
+def sample(sysid: int, tick: int) -> Correction:
+    return Correction(sysid, tick, tick, True, 0.1 * tick, -0.2)
+
+
+@pytest.fixture
+def pair() -> Iterator[tuple[dict[int, zenoh.Session], dict[int, Exchange]]]:
+    """Vehicles 1 and 2, each other's neighbours."""
+    peers, _ = local_peers({1: [2], 2: [1]})
+    with ExitStack() as stack:
+        sessions = {sysid: stack.enter_context(open_session(peer)) for sysid, peer in peers.items()}
+        exchanges = {sysid: Exchange(sessions[sysid], SWARM, sysid, [3 - sysid]) for sysid in peers}
+        tokens = [sessions[sysid].liveliness().declare_token(alive_key(SWARM, sysid)) for sysid in peers]
+        assert exchanges[1].wait_for_neighbours(10) == set()
+        assert exchanges[2].wait_for_neighbours(10) == set()
+        yield sessions, exchanges
+        del tokens
+    for peer in peers.values():
+        discard_sockets(peer)
+
+
+Pair = tuple[dict[int, zenoh.Session], dict[int, Exchange]]
+
+
+def test_each_hears_the_other_tick_by_tick(pair: Pair) -> None:
+    _, exchanges = pair
+    for tick in range(200):
+        for sysid, exchange in exchanges.items():
+            exchange.publish(sample(sysid, tick), now=True)
+        assert exchanges[1].gather(tick) == {2: sample(2, tick)}
+        assert exchanges[2].gather(tick) == {1: sample(1, tick)}
+
+
+def test_several_samples_may_share_a_message(pair: Pair) -> None:
+    _, exchanges = pair
+    for tick in range(5):
+        exchanges[2].publish(sample(2, tick), now=tick == 4)
+    assert [exchanges[1].gather(tick) for tick in range(5)] == [{2: sample(2, tick)} for tick in range(5)]
+
+
+def test_a_sample_that_is_not_there_yet_is_waited_for(pair: Pair) -> None:
+    _, exchanges = pair
+    heard: list[dict[int, Correction]] = []
+    waiting = threading.Thread(target=lambda: heard.append(exchanges[1].gather(7)))
+    waiting.start()
+    waiting.join(0.2)
+    assert waiting.is_alive()
+    exchanges[2].publish(sample(2, 7), now=True)
+    waiting.join(10)
+    assert heard == [{2: sample(2, 7)}]
+
+
+def test_who_has_gone_is_waited_for_no_longer_but_its_last_words_count(pair: Pair) -> None:
+    sessions, exchanges = pair
+    exchanges[2].publish(sample(2, 0), now=True)
+    sessions[2].close()
+    assert exchanges[1].gather(0) == {2: sample(2, 0)}
+    assert exchanges[1].gather(1) == {}
+    assert exchanges[1].gone == {2}
+
+
+def test_stop_wakes_who_waits(pair: Pair) -> None:
+    _, exchanges = pair
+    waiting = threading.Thread(target=lambda: exchanges[1].gather(0))
+    waiting.start()
+    exchanges[1].stop()
+    waiting.join(10)
+    assert not waiting.is_alive()
+
+
+@pytest.mark.parametrize("payload", [b"", b"nonsense", b"\xff" * 40])
+def test_payloads_that_are_no_samples_are_counted_and_dropped(pair: Pair, payload: bytes) -> None:
+    sessions, exchanges = pair
+    sessions[2].put(correction_key(SWARM, 2), payload, priority=zenoh.Priority.REAL_TIME)
+    exchanges[2].publish(sample(2, 0), now=True)
+    assert exchanges[1].gather(0) == {2: sample(2, 0)}
+    assert exchanges[1].rejected == 1
+
+
+def test_a_sample_in_anothers_name_is_dropped(pair: Pair) -> None:
+    _, exchanges = pair
+    exchanges[2].publish(sample(9, 0), now=True)
+    exchanges[2].publish(sample(2, 0), now=True)
+    assert exchanges[1].gather(0) == {2: sample(2, 0)}
+    assert exchanges[1].rejected == 1
+
+
+def test_missing_neighbours_are_named() -> None:
+    peers, _ = local_peers({1: []})
+    with open_session(peers[1]) as session:
+        assert Exchange(session, SWARM, 1, [2, 3]).wait_for_neighbours(0.1) == {2, 3}
+    discard_sockets(peers[1])

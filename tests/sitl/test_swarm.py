@@ -1,0 +1,95 @@
+"""Endpoints as processes: up together, light, and gone with their swarm or its station."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from missions.errors import InputError
+from missions.scenario import Scenario
+from sitl.endpoint import Ended
+from sitl.swarm import Swarm, SwarmOptions
+
+OPTIONS = SwarmOptions(seed=1, delay_s=0.2)
+
+
+def wait_until(condition: Callable[[], bool], timeout_s: float = 20.0) -> None:
+    deadline = time.monotonic() + timeout_s
+    while not condition():
+        assert time.monotonic() < deadline, "it did not happen in time"
+        time.sleep(0.01)
+
+
+def alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return Path(f"/proc/{pid}/stat").read_text().split()[2] != "Z"
+
+
+def test_nine_start_answer_at_ports_of_their_own_and_end_as_told(vee: Scenario, tmp_path: Path) -> None:
+    with Swarm(vee, SwarmOptions(seed=1, delay_s=0.2, held=False, truth=tmp_path)) as swarm:
+        ports = {endpoint.ready.tcp_port for endpoint in swarm.endpoints.values() if endpoint.ready}
+        assert len(ports) == 9
+        for port in ports:
+            socket.create_connection(("127.0.0.1", port), timeout=5).close()
+        sockets = Path(swarm.station_peer.connect[0].removeprefix("unixsock-stream/")).parent
+        wait_until(lambda: all(file.stat().st_size > 8000 for file in tmp_path.iterdir()))
+    assert all(isinstance(endpoint.last, Ended) for endpoint in swarm.endpoints.values())
+    assert not any(endpoint.process.is_alive() for endpoint in swarm.endpoints.values())
+    assert not sockets.exists()
+    ticks = {endpoint.last.tick for endpoint in swarm.endpoints.values() if isinstance(endpoint.last, Ended)}
+    assert max(ticks) - min(ticks) <= 5 * 5, "lockstep: neighbours are at most the delay apart"
+
+
+def test_an_endpoint_loads_no_numba_scipy_or_pydantic() -> None:
+    check = "import sys, sitl.endpoint; print({'numba', 'scipy', 'pydantic', 'matplotlib'} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-c", check], capture_output=True, text=True).stdout.strip() == "set()"
+
+
+def test_a_port_in_use_is_named_and_nothing_is_left_running(vee: Scenario) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        with pytest.raises(InputError, match=rf"vehicle 1: TCP port {port} .*in use"):
+            Swarm(vee, SwarmOptions(seed=1, delay_s=0.2, tcp_port=port))
+
+
+def test_a_killed_endpoint_has_an_obituary_and_the_others_fly_on(vee: Scenario, tmp_path: Path) -> None:
+    with Swarm(vee, SwarmOptions(seed=1, delay_s=0.2, held=False, truth=tmp_path)) as swarm:
+        victim = swarm.endpoints[4]
+        os.kill(victim.process.pid or 0, signal.SIGKILL)
+        wait_until(lambda: victim.obituary() is not None)
+        assert victim.obituary() == "process killed by SIGKILL"
+        size = (tmp_path / "1.f64").stat().st_size
+        wait_until(lambda: (tmp_path / "1.f64").stat().st_size > size + 100_000)
+        assert all(endpoint.obituary() is None for endpoint in swarm.endpoints.values() if endpoint is not victim)
+
+
+def test_endpoints_end_when_their_station_is_killed(tmp_path: Path) -> None:
+    """The station is a process of its own, killed without a chance to clean up."""
+    script = tmp_path / "station.py"
+    script.write_text(
+        "import time\n"
+        "if __name__ == '__main__':\n"
+        "    from missions.scenario import load_scenario\n"
+        "    from sitl.swarm import Swarm, SwarmOptions\n"
+        "    swarm = Swarm(load_scenario('vee'), SwarmOptions(seed=1, delay_s=0.2, held=False))\n"
+        "    print(*[e.process.pid for e in swarm.endpoints.values()], swarm.station_peer.connect[0], flush=True)\n"
+        "    time.sleep(600)\n"
+    )
+    station = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True)
+    assert station.stdout is not None
+    *pids, address = station.stdout.readline().split()
+    assert len(pids) == 9
+    station.kill()
+    station.wait()
+    station.stdout.close()
+    wait_until(lambda: not any(alive(int(pid)) for pid in pids))
+    wait_until(lambda: not Path(address.removeprefix("unixsock-stream/")).parent.exists())
