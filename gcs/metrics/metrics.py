@@ -1,0 +1,172 @@
+"""Figures of merit of one flight: what metrics.json holds."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from gcs.flight_record import Event, FlightRecord, Timing
+from gcs.metrics.arrival import Arrival, arrival
+from gcs.metrics.flight_limits import FlightLimits, flight_limits
+from gcs.metrics.formation_error import Edge
+from gcs.metrics.series import Series, flight_series
+from gcs.metrics.surroundings import Surroundings, surroundings
+from gcs.metrics.tracks import tracks
+from gcs.truth import Truths, trajectory_sha256
+from missions.scenario import Scenario
+from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
+from sitl.config import Arm
+
+
+@dataclass(frozen=True)
+class VehicleMetrics:
+    """One vehicle. `fitness` and its terms are kilometres; `lost_s` is when it was lost, if it was."""
+
+    sysid: int
+    name: str
+    fitness: float
+    fitness_terms: FitnessTerms
+    straight_line_km: float
+    planned_length_km: float
+    flown_length_km: float | None
+    planned_arrival_s: float
+    arrival_s: float | None
+    completed: bool
+    lost_s: float | None
+    items_uploaded: int | None
+    items_verified: int | None
+
+
+@dataclass(frozen=True)
+class FormationMetrics:
+    """All vehicles together; None is unknown, or not defined for so few vehicles.
+
+    `clearance_margin_m` is what is left above limits.clearance_m, which grows from 0 over limits.climb_out_m, and
+    `min_wall_m` the least distance from an obstacle.
+    """
+
+    delay_margin_s: float | None
+    rms_error_m: float | None
+    max_error_m: float | None
+    arrival_spread_s: float | None
+    min_separation_m: float | None
+    min_clearance_m: float | None
+    clearance_margin_m: float | None
+    min_wall_m: float | None
+    radar_exposure_s: float
+    late_samples: int | None
+    lost_samples: int | None
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """One flight of a scenario."""
+
+    scenario: str
+    seed: int
+    delay_s: float
+    arm: Arm
+    trajectory_sha256: str | None
+    vehicles: tuple[VehicleMetrics, ...]
+    formation: FormationMetrics
+    timing: Timing
+    events: tuple[Event, ...]
+    limits: tuple[FlightLimits, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """The metrics as JSON values; what is not finite is null."""
+        values = _finite(asdict(self))
+        assert isinstance(values, dict)
+        return values
+
+
+def measure(
+    scenario: Scenario, plan: FormationPlan, truths: Truths, edges: Sequence[Edge], record: FlightRecord
+) -> tuple[Metrics, Series]:
+    """Compute the figures of merit of a flight, and what they are over time.
+
+    Args:
+        scenario, plan: what was flown.
+        truths: what the endpoints recorded, by sysid (`gcs.truth.read_truths`).
+        edges: of the nominal graph, pairs of sysids.
+        record: what else became of the flight.
+    """
+    references = plan.references(scenario)
+    arrivals = {sysid: arrival(truth, references[sysid]) for sysid, truth in truths.items()}
+    common = tracks(references, truths)
+    series = flight_series(common, edges, references, {sysid: end.time_s for sysid, end in arrivals.items()})
+    around = [surroundings(positions, scenario) for positions in common.flown_m]
+    late = [end.time_s - references[i].duration_s for i, end in arrivals.items() if end.time_s is not None]
+    ends = [end.tick for end in arrivals.values() if end.tick is not None]
+    metrics = Metrics(
+        scenario=scenario.name,
+        seed=record.seed,
+        delay_s=record.delay_s,
+        arm=record.arm,
+        trajectory_sha256=trajectory_sha256(truths, max(ends)) if ends and not record.lost else None,
+        vehicles=tuple(
+            _vehicle(uav, references[uav.sysid].duration_s, arrivals.get(uav.sysid), record) for uav in plan.uavs
+        ),
+        formation=_formation(series, around, late, record),
+        timing=record.timing,
+        events=record.events,
+        limits=tuple(flight_limits(sysid, truth[: _rows(arrivals[sysid])]) for sysid, truth in sorted(truths.items())),
+    )
+    return metrics, series
+
+
+def _vehicle(uav: UavPlan, planned_s: float, end: Arrival | None, record: FlightRecord) -> VehicleMetrics:
+    return VehicleMetrics(
+        sysid=uav.sysid,
+        name=uav.name,
+        fitness=uav.terms.fitness,
+        fitness_terms=uav.terms,
+        straight_line_km=uav.straight_line_m / 1000.0,
+        planned_length_km=uav.length_m / 1000.0,
+        flown_length_km=end.length_m / 1000.0 if end else None,
+        planned_arrival_s=planned_s,
+        arrival_s=end.time_s if end else None,
+        completed=end is not None and end.time_s is not None,
+        lost_s=record.lost.get(uav.sysid),
+        items_uploaded=record.items_uploaded.get(uav.sysid),
+        items_verified=record.items_verified.get(uav.sysid),
+    )
+
+
+def _formation(
+    series: Series, around: Sequence[Surroundings], late_s: Sequence[float], record: FlightRecord
+) -> FormationMetrics:
+    known = series.separation_m[np.isfinite(series.separation_m)]
+    return FormationMetrics(
+        delay_margin_s=record.delay_margin_s,
+        rms_error_m=series.error.overall_rms_m,
+        max_error_m=series.error.overall_max_m,
+        arrival_spread_s=max(late_s) - min(late_s) if late_s else None,
+        min_separation_m=float(known.min()) if len(known) else None,
+        min_clearance_m=_least(one.clearance_m for one in around),
+        clearance_margin_m=_least(one.clearance_margin_m for one in around),
+        min_wall_m=_least(one.wall_m for one in around),
+        radar_exposure_s=math.fsum(one.radar_exposure_s for one in around),
+        late_samples=record.late_samples,
+        lost_samples=record.lost_samples,
+    )
+
+
+def _rows(end: Arrival) -> int | None:
+    """How many rows of a truth are the flight itself; None for all."""
+    return None if end.tick is None else end.tick + 1
+
+
+def _least(values: Iterable[float | None]) -> float | None:
+    return min((value for value in values if value is not None), default=None)
+
+
+def _finite(value: object) -> object:
+    """JSON values without NaN and infinities, which JSON does not have."""
+    if isinstance(value, dict):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

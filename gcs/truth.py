@@ -1,0 +1,51 @@
+"""Reading what the endpoints recorded: truth/<sysid>.f64 (MODEL, section 7)."""
+
+import hashlib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from missions.errors import InputError
+
+FloatArray = npt.NDArray[np.float64]
+Truths = Mapping[int, FloatArray]
+"""By sysid: (n_tick, 6) rows of x, y, h, V, gamma, chi; row n is the state at tick n. SI, radians, local frame."""
+
+COLUMNS = 6
+X, Y, H, V, GAMMA, CHI = range(COLUMNS)
+
+
+def read_truths(folder: Path, sysids: Iterable[int]) -> dict[int, FloatArray]:
+    """The truth of each vehicle, in order of sysid.
+
+    Raises:
+        InputError: a file is missing or holds no whole row.
+    """
+    return {sysid: read_truth(folder / f"{sysid}.f64") for sysid in sorted(sysids)}
+
+
+def read_truth(path: Path) -> FloatArray:
+    """One vehicle's truth, (n_tick, 6). The half row that a killed endpoint may leave is cut.
+
+    Raises:
+        InputError: the file is missing or holds no whole row.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}; `skein fly` writes it") from None
+    row_bytes = COLUMNS * 8
+    whole = len(data) - len(data) % row_bytes
+    if not whole:
+        raise InputError(f"{path}: no whole row of {row_bytes} bytes; the vehicle never flew, fly the run again")
+    return np.frombuffer(data[:whole], dtype="<f8").reshape(-1, COLUMNS).astype(np.float64, copy=False)
+
+
+def trajectory_sha256(truths: Truths, last_tick: int) -> str:
+    """SHA-256 over the truth files in order of sysid, each cut after row `last_tick`."""
+    digest = hashlib.sha256()
+    for sysid in sorted(truths):
+        digest.update(truths[sysid][: last_tick + 1].astype("<f8", copy=False).tobytes())
+    return digest.hexdigest()
