@@ -119,12 +119,13 @@ def require_feasible(name: str, path: PathFound, attempts: int) -> None:
 
 def _expected_ground_speed_m_s(scenario: Scenario, vehicle: VehicleModel) -> float:
     """All arrive together: whoever has the longest line flies at cruise, or faster where the one with the shortest
-    would otherwise be too slow; the others as much slower as their lines are shorter."""
+    would otherwise be too slow; the others as much slower as their lines are shorter.
+
+    Where even the fastest would not do, at cruise all the same: the schedule then says whose line is too short.
+    """
     lines = {of.sysid: math.dist(scenario.target_m(of)[:2], scenario.origin_m(of)[:2]) for of in scenario.vehicles}
     longest, shortest = max(lines.values()), min(lines.values())
-    slowest, _ = airspeed_range_m_s(scenario)
-    return (
-        max(scenario.airframe.airspeed_cruise_m_s, DETOUR * slowest * longest / shortest)
-        * lines[vehicle.sysid]
-        / longest
-    )
+    slowest, fastest = airspeed_range_m_s(scenario)
+    cruise = scenario.airframe.airspeed_cruise_m_s
+    needed = DETOUR * slowest * longest / shortest
+    return max(cruise, needed if needed <= fastest else cruise) * lines[vehicle.sysid] / longest

@@ -91,7 +91,7 @@ def common_arrival(names: Sequence[str], paths: Sequence[FloatArray], scenario: 
     faults_at = {float(duration): faults(float(duration)) for duration in durations}
     possible = [duration for duration, found in faults_at.items() if not found]
     if not possible:
-        duration, found = min(faults_at.items(), key=lambda item: len(item[1]))
+        duration, found = min(faults_at.items(), key=lambda item: (len(item[1]), abs(item[0] - longest / cruise)))
         raise InputError(
             f"{scenario.name}: {found[0]}, to arrive with the others after {duration:.0f} s; "
             "bring the lengths of the paths nearer to each other, or lower the targets"

@@ -140,7 +140,8 @@ def random_problem(rng: np.random.Generator) -> tuple[PathProblem, FloatArray]:
     x = rng.uniform(3000, 17000, 8)
     y = rng.uniform(-3000, 3000, 8)
     peaks = [(rng.uniform(-200, 900), x[i], y[i], *rng.uniform(500, 3000, 2)) for i in range(2)]
-    radars = [(x[i], y[i], rng.uniform(0, 1500), rng.uniform(500, 2500), rng.uniform(300, 2500)) for i in (2, 3)]
+    radii = rng.uniform(500, 2500, 2)
+    radars = [(x[2 + i], y[2 + i], rng.uniform(0, 1500), radii[i], radii[i] * rng.uniform(0.3, 1)) for i in range(2)]
     obstacles = [(x[i], y[i], rng.uniform(100, 800), rng.uniform(200, 1500), 145.0) for i in (4, 5)]
     part = np.linspace(0, 1, 6)
     other = np.column_stack(

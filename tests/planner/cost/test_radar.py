@@ -1,6 +1,7 @@
 """The closed form of the radar integral against quadrature."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ def by_quadrature(p: np.ndarray, q: np.ndarray, radar: np.ndarray) -> float:
         half = math.sqrt(max(0.0, reach**2 - rho**2))
         kinks += [along - half, along + half]
     points = sorted({0.0, length, *(k for k in kinks if 0 < k < length)})
-    return sum(quad(density, a, b, epsrel=1e-10, limit=200)[0] for a, b in zip(points, points[1:], strict=False))
+    return sum(quad(density, a, b, epsrel=1e-10, limit=200)[0] for a, b in pairwise(points))
 
 
 @settings(max_examples=100, deadline=None)
@@ -49,7 +50,7 @@ def test_it_keeps_its_digits_near_the_centre(beside: float) -> None:
 
 
 def test_points_a_kilometre_apart_would_sum_to_about_the_same() -> None:
-    """The line integral per kilometre equals the paper's sum over waypoints 1 km apart, on average over where they fall."""
+    """The integral per kilometre is the paper's sum over waypoints 1 km apart, on average over where they fall."""
     radar = np.array([0.0, 0.0, 0.0, 4000.0, 4000.0])
     start, end = np.array([-9000.0, 1500.0, 0.0]), np.array([9000.0, 1500.0, 0.0])
     x = np.arange(-9000.0, 9000.0, 10.0)

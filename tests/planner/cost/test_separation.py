@@ -37,5 +37,5 @@ def test_the_same_place_at_another_time_is_no_meeting() -> None:
     assert meeting == pytest.approx(0.0, abs=1e-9)
     late = np.array([[0.0, -1000, 0, 0], [0, -900, 0, 0.5], [0, 1000, 0, 1]])
     apart, leg = least_separation_m(west, east, 0.0, 1.0, late, 0)
-    assert apart > 600.0
+    assert apart == pytest.approx(900 * 2000 / np.hypot(2000, 3800))
     assert leg == 1

@@ -34,7 +34,8 @@ def test_a_needle_on_a_long_leg_is_seen() -> None:
     p, q = np.array([0.0, 0, 500]), np.array([8000.0, 0, 500])
     least, _ = leg_clearance_m(p, q, 5000.0, 13000.0, terrain, 100.0, 2000.0)
     assert least < -290.0
-    beside, _ = leg_clearance_m(p + (0, 200, 0), q + (0, 200, 0), 5000.0, 13000.0, terrain, 100.0, 2000.0)
+    aside = np.array([0.0, 200.0, 0.0])
+    beside, _ = leg_clearance_m(p + aside, q + aside, 5000.0, 13000.0, terrain, 100.0, 2000.0)
     assert beside == 500.0
 
 

@@ -1,0 +1,143 @@
+"""Plans of whole scenarios: verified, the same twice, and refused with a reason when there is none."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from missions.errors import InputError
+from missions.scenario import Scenario, load_scenario, shipped_scenarios
+from planner.cost.kernel import evaluate
+from planner.find_path import find_path
+from planner.formation_plan import FormationPlan, load_plan
+from planner.plan import PlanProgress, plan
+from planner.verify import require, verify
+
+
+def smaller(scenario: Scenario, vehicles: int, iterations: int, population: int = 60) -> Scenario:
+    """The same scenario with fewer vehicles and less search."""
+    search = scenario.search.model_copy(update={"iterations": iterations, "population": population})
+    return scenario.model_copy(update={"vehicles": scenario.vehicles[:vehicles], "search": search})
+
+
+RADARS = smaller(load_scenario("radars"), 3, 60)
+
+
+def same(first: FormationPlan, second: FormationPlan) -> bool:
+    """Whether two plans are equal in all but how long they took."""
+    plain, other = (replace(p, compile_s=0.0, plan_s=0.0).as_json() for p in (first, second))
+    return plain == other
+
+
+@pytest.fixture(scope="module")
+def three() -> FormationPlan:
+    return plan(RADARS)
+
+
+@pytest.mark.parametrize("name", shipped_scenarios())
+def test_shipped_scenarios_give_verified_plans_no_better_than_the_straight_line(name: str) -> None:
+    scenario = load_scenario(name)
+    result = plan(scenario)
+    assert verify(result, scenario).violations == ()
+    assert [uav.sysid for uav in result.uavs] == [vehicle.sysid for vehicle in scenario.vehicles]
+    arrivals = [reference.duration_s for reference in result.references(scenario).values()]
+    assert np.ptp(arrivals) < 0.01
+    for uav in result.uavs:
+        assert uav.terms.fitness * 1000 >= uav.terms.length * 1000 >= uav.straight_line_m - 1e-6
+        assert uav.length_m == pytest.approx(uav.terms.length * 1000, rel=0.01)
+        assert uav.terms.collision == 0.0
+        assert uav.evaluations <= scenario.search.population * scenario.search.iterations * 3
+    assert result.plan_s > 0.0
+
+
+def test_the_same_seed_gives_the_same_plan_and_another_does_not(three: FormationPlan) -> None:
+    assert same(plan(RADARS), three)
+    assert not same(plan(RADARS, seed=2), three)
+
+
+def test_what_the_leader_flies_does_not_depend_on_who_follows(three: FormationPlan) -> None:
+    two = plan(smaller(RADARS, 2, 60))
+    for early, late in zip(two.uavs, three.uavs[:2], strict=True):
+        assert np.array_equal(early.waypoints_m, late.waypoints_m)
+
+
+def test_methods_differ_and_get_as_many_evaluations(three: FormationPlan) -> None:
+    by_pso = plan(RADARS, method="pso")
+    assert (three.method, by_pso.method) == ("hybrid", "pso")
+    for hybrid_uav, pso_uav in zip(three.uavs, by_pso.uavs, strict=True):
+        assert not np.array_equal(hybrid_uav.waypoints_m, pso_uav.waypoints_m)
+        assert abs(hybrid_uav.evaluations - pso_uav.evaluations) < 3 * RADARS.search.population
+
+
+def test_history_ends_at_the_cost_of_the_path(three: FormationPlan) -> None:
+    for uav in three.uavs:
+        assert uav.history[-1] == pytest.approx(uav.terms.fitness, rel=1e-12)
+        known = [cost for cost in uav.history if cost is not None]
+        assert known == sorted(known, reverse=True)
+
+
+def test_progress_tells_of_every_iteration_of_every_uav() -> None:
+    told: list[PlanProgress] = []
+    scenario = smaller(RADARS, 2, 5)
+    try:
+        plan(scenario, progress=told.append)
+    except InputError:  # five iterations need not find a path
+        assert told
+    for uav in (0, 1):
+        mine = [now for now in told if now.uav == uav]
+        assert [now.iteration for now in mine] == list(range(1, mine[0].iterations + 1)) * (
+            len(mine) // mine[0].iterations
+        )
+        assert all(now.uavs == 2 and now.name == scenario.vehicles[uav].name for now in mine)
+
+
+def test_both_readings_agree_on_what_was_found() -> None:
+    path = find_path(RADARS, RADARS.vehicles[1], [], method="hybrid", seed=1, attempt=0, report=lambda *_: None)
+    assert path.feasible
+    interior = path.corners_m[1:-1].reshape(1, -1)
+    assert evaluate(interior, path.problem, "published")[0][0] == path.cost_km
+
+
+def test_a_plan_survives_its_file(three: FormationPlan, tmp_path: Path) -> None:
+    three.save(tmp_path / "plan.json")
+    again = load_plan(tmp_path / "plan.json")
+    assert again.as_json() == three.as_json()
+    assert all(a.mission == b.mission for a, b in zip(again.uavs, three.uavs, strict=True))
+    assert all(np.array_equal(a.waypoints_m, b.waypoints_m) for a, b in zip(again.uavs, three.uavs, strict=True))
+    require(verify(again, RADARS))
+
+
+def test_a_target_too_steep_to_reach_says_so() -> None:
+    high = RADARS.vehicles[0].model_copy(update={"target": (12000.0, 12000.0, 3900.0)})
+    scenario = smaller(RADARS, 1, 5).model_copy(update={"vehicles": (high,)})
+    with pytest.raises(InputError, match=r"leader: no feasible path in 4 searches .* slope of 0\.3\d\d, at most 0\.1"):
+        plan(scenario)
+
+
+def test_a_target_behind_a_wall_says_so() -> None:
+    across = {"radius_m": 16000.0, "x_m": 16500.0, "y_m": 16000.0, "height_m": 9000.0}
+    wall = RADARS.obstacles[0].model_copy(update=across)
+    scenario = smaller(RADARS, 1, 3).model_copy(update={"obstacles": (wall,)})
+    scenario.__dict__.pop("environment", None)
+    with pytest.raises(InputError, match=r"leader: no feasible path .*too close to an obstacle or to an earlier UAV"):
+        plan(scenario)
+
+
+def test_targets_too_far_apart_for_a_common_arrival_say_so() -> None:
+    near = RADARS.vehicles[1].model_copy(update={"target": (9000.0, 13000.0, 500.0)})
+    scenario = smaller(RADARS, 2, 60).model_copy(update={"vehicles": (RADARS.vehicles[0], near)})
+    with pytest.raises(InputError, match=r"radars: .*leg \d+: .* to arrive with the others after \d+ s"):
+        plan(scenario)
+
+
+def test_a_slot_plan_that_fails_verification_is_never_returned() -> None:
+    vee = load_scenario("vee")
+    strict = vee.model_copy(update={"limits": vee.limits.model_copy(update={"separation_m": 130.0})})
+    with pytest.raises(InputError, match=r"plan: \w+: 1[12]\d m from \w+ after \d+ s"):
+        plan(strict)
+
+
+def test_an_unknown_method_is_refused_by_name() -> None:
+    with pytest.raises(InputError, match="method annealing: must be one of pso, hybrid"):
+        plan(RADARS, method="annealing")
