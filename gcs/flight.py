@@ -157,7 +157,7 @@ async def _fly_held(
         VehicleStatus(uav.sysid, uav.name, references[uav.sysid].duration_s, len(uav.mission)) for uav in plan.uavs
     ]
     with open_session(swarm.station_peer) as session:
-        clock = SwarmClock(session, swarm.name)
+        clock = SwarmClock(session, swarm.name, swarm.endpoints)
         await asyncio.to_thread(clock.release, swarm.endpoints)
         links = {vehicle.sysid: vehicle for vehicle in vehicles}
         events = await watch_flight(statuses, links, swarm.endpoints, display)
@@ -169,12 +169,14 @@ async def _fly_held(
 
 def _addresses(swarm: Swarm, port: int) -> dict[str, object]:
     """What endpoints.json says: where the station and each vehicle can be reached while they fly."""
-    ready = {sysid: endpoint.ready for sysid, endpoint in swarm.endpoints.items()}
-    return {
-        "station_udp_port": port,
-        "vehicles": [
-            {"sysid": sysid, "tcp_port": ports.tcp_port, "udp_port": ports.udp_port}
-            for sysid, ports in ready.items()
-            if ports is not None
-        ],
-    }
+    vehicles = [
+        {
+            "sysid": sysid,
+            "pid": endpoint.process.pid,
+            "tcp_port": endpoint.ready.tcp_port,
+            "udp_port": endpoint.ready.udp_port,
+        }
+        for sysid, endpoint in swarm.endpoints.items()
+        if endpoint.ready is not None
+    ]
+    return {"station_udp_port": port, "vehicles": vehicles}

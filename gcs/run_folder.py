@@ -8,6 +8,7 @@ import itertools
 import json
 import shutil
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -113,10 +114,10 @@ def make_run_folder(out: Path | None, scenario_name: str) -> RunFolder:
     """
     if out is None:
         stamp = time.strftime("%Y%m%d-%H%M%S")
-        names = itertools.chain([""], (f"-{i}" for i in itertools.count(2)))
-        candidates = (RUNS / f"{scenario_name}-{stamp}{name}" for name in names)
+        endings = itertools.chain([""], (f"-{i}" for i in itertools.count(2)))
+        candidates: Iterable[Path] = (RUNS / f"{scenario_name}-{stamp}{ending}" for ending in endings)
     else:
-        candidates = iter([out])
+        candidates = [out]
     for path in candidates:
         try:
             path.mkdir(parents=True, exist_ok=out is not None)

@@ -1,12 +1,13 @@
 """Holding, releasing, pacing and stopping a swarm's clocks over Zenoh (the queryable `skein/<swarm>/clock`)."""
 
 import json
+import queue
 from collections.abc import Iterable
 
 import zenoh
 
 from missions.errors import InputError
-from sitl.zenoh_session import clock_key
+from sitl.zenoh_session import alive_key, clock_key, sysid_of
 
 TIMEOUT_S = 5.0
 
@@ -15,13 +16,29 @@ class SwarmClock:
     """The clocks of a swarm, as one.
 
     Args:
-        session: connected to all endpoints.
+        session: told to connect to all endpoints.
         swarm: the swarm's name.
+        sysids: of the vehicles; their liveliness tokens are waited for, since an endpoint declares its clock before.
+
+    Raises:
+        InputError: some of them cannot be reached.
     """
 
-    def __init__(self, session: zenoh.Session, swarm: str) -> None:
+    def __init__(self, session: zenoh.Session, swarm: str, sysids: Iterable[int]) -> None:
         self._session = session
         self._key = clock_key(swarm)
+        missing = set(sysids)
+        tokens: queue.SimpleQueue[zenoh.Sample] = queue.SimpleQueue()
+        subscriber = session.liveliness().declare_subscriber(
+            alive_key(swarm, "*"), zenoh.handlers.Callback(tokens.put, indirect=False), history=True
+        )
+        try:
+            while missing:
+                missing.discard(sysid_of(str(tokens.get(timeout=TIMEOUT_S).key_expr), swarm))
+        except queue.Empty:
+            raise InputError(f"vehicles {sorted(missing)} cannot be reached over Zenoh") from None
+        finally:
+            subscriber.undeclare()
 
     def release(self, sysids: Iterable[int]) -> None:
         """Let the clocks of these vehicles go on.

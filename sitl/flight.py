@@ -15,9 +15,8 @@ from sitl.aircraft.actuators import LagGains, lag_gains, lagged
 from sitl.aircraft.gusts import GustFilter, GustState, Normals, gust_filter, start_gusts, step_gusts, wind_at
 from sitl.aircraft.linearisation import controls_for
 from sitl.aircraft.point_mass import AirState, Controls, air_velocity, rk4_step, with_air_velocity
-from sitl.formation.law import Gains, formation_acceleration
 from sitl.guidance.path_errors import START, PathErrors, PathPoint
-from sitl.guidance.path_law import Accelerations, across_acceleration, limited, speed_acceleration, up_acceleration
+from sitl.guidance.path_law import Accelerations, across_acceleration, limited, up_acceleration
 from sitl.ticks import TICK_S
 
 Vector = tuple[float, float, float]
@@ -109,15 +108,6 @@ def airspeed_at(s_m: float, airspeeds: list[tuple[float, float]]) -> float:
         if s_m >= airspeeds[i][0]:
             wanted = airspeeds[i][1]
     return wanted
-
-
-def ahead_acceleration(
-    errors: PathErrors, corrections: float, airspeed: float, airspeed_wanted: float, gains: Gains, with_schedule: bool
-) -> float:
-    """u_t: of the formation law, or of a plain autopilot, which knows no schedule."""
-    if with_schedule:
-        return formation_acceleration(errors, corrections, gains)
-    return speed_acceleration(airspeed_wanted, airspeed)
 
 
 def moved(flight: Flight, wanted: Accelerations, aircraft: Aircraft) -> Flight:

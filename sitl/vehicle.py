@@ -12,7 +12,6 @@ from sitl.aircraft.gusts import NORMALS_PER_TICK
 from sitl.config import VehicleConfig
 from sitl.events import ItemReached, StatusText
 from sitl.flight import (
-    ahead_acceleration,
     airspeed_at,
     ground_velocity,
     in_next_wind,
@@ -23,10 +22,10 @@ from sitl.flight import (
     path_accelerations,
 )
 from sitl.formation.correction import Correction
-from sitl.formation.law import correction
+from sitl.formation.law import correction, formation_acceleration
 from sitl.guidance.loiter_law import Loiter, loiter_accelerations
 from sitl.guidance.path_errors import START, PathErrors, path_errors
-from sitl.guidance.path_law import Accelerations
+from sitl.guidance.path_law import Accelerations, speed_acceleration
 from sitl.mission_progress import MissionProgress
 from sitl.modes import Mode
 from sitl.noise import Stream, normals
@@ -222,7 +221,9 @@ class Vehicle:
         return errors
 
     def _ahead(self, errors: PathErrors, heard: Mapping[int, Correction]) -> float:
-        """u_t, with the corrections of all neighbours that flew their schedule then, as we did."""
+        """u_t: a plain autopilot's, or the law's with the corrections of neighbours that flew their schedule then."""
+        if self._config.arm == "plain":
+            return speed_acceleration(self._airspeed_wanted(), self._flight.air.V)
         then = self._own[0]
         corrections = 0.0
         if then.in_formation and then.tick == self.tick - self._config.delay_ticks:
@@ -232,8 +233,7 @@ class Vehicle:
                     corrections += correction(
                         then.along_m, then.along_rate_m_s, other.along_m, other.along_rate_m_s, weight, self._gains
                     )
-        airspeed, with_schedule = self._flight.air.V, self._config.arm != "plain"
-        return ahead_acceleration(errors, corrections, airspeed, self._airspeed_wanted(), self._gains, with_schedule)
+        return formation_acceleration(errors, corrections, self._gains)
 
     def _note_progress(self) -> None:
         progress = self._progress

@@ -7,9 +7,17 @@ import typer
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.options import ScenarioArgument, SeedOption
 
+STATION_HOST = "127.0.0.1"
+STATION_PORT = 14550
+"""Where ground stations listen for UDP."""
+WATCH_PERIOD_S = 0.5
+
 CountOption = Annotated[int | None, typer.Option("--count", metavar="N", min=1, help="Only the first N vehicles.")]
 PaceOption = Annotated[
     float, typer.Option("--speed", metavar="X", min=0.0, help="Simulated seconds a second; 0 for as fast as it goes.")
+]
+TcpPortOption = Annotated[
+    int, typer.Option("--tcp-port", metavar="P", min=0, max=65000, help="Of the first vehicle, 10 more each; 0: free ones.")
 ]
 HeldOption = Annotated[bool, typer.Option("--held", help="Start with the clock held at simulated time 0.")]
 
@@ -18,7 +26,10 @@ def sim(
     scenario: ScenarioArgument = "radars",
     count: CountOption = None,
     speed: PaceOption = 1.0,
-    held: HeldOption = False,
+    held: TcpPortOption = Annotated[
+    int, typer.Option("--tcp-port", metavar="P", min=0, max=65000, help="Of the first vehicle, 10 more each; 0: free ones.")
+]
+HeldOption = False,
     seed: SeedOption = None,
 ) -> None:
     """Leave a swarm running for any station: telemetry to UDP 14550, TCP at 5760, 5770, ... Ends with Ctrl-C.
@@ -44,7 +55,7 @@ def sim(
             held=held,
             speed=speed or float("inf"),
             stations=((STATION_HOST, STATION_PORT),),
-            tcp_port=FIRST_TCP_PORT,
+            tcp_port=tcp_port,
         )
         with Swarm(flown, options) as swarm:
             output.out.print(endpoint_table(flown, swarm, STATION_PORT))
@@ -58,10 +69,3 @@ def sim(
                 time.sleep(WATCH_PERIOD_S)
             raise SystemExit(FELL_SHORT)
 
-
-STATION_HOST = "127.0.0.1"
-STATION_PORT = 14550
-"""Where ground stations listen for UDP."""
-FIRST_TCP_PORT = 5760
-"""ArduPilot SITL's; 10 more for each further vehicle."""
-WATCH_PERIOD_S = 0.5

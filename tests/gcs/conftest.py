@@ -1,14 +1,17 @@
 """Endpoints' faces on real sockets, for the station to talk to."""
 
 import contextlib
+import re
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from missions.frame import LocalFrame
+from missions.scenario import read_scenario_text
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
 
@@ -38,3 +41,22 @@ def serve(frame: LocalFrame) -> Iterator[Serve]:
             return links
 
         yield start
+
+
+@pytest.fixture(scope="session")
+def short_scenario(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three aircraft of the shipped V on two legs of 1.2 km with a turn of 30 degrees: some 86 s of flight."""
+    text, _ = read_scenario_text("vee")
+    head, *vehicles = re.split(r"(?=\[\[vehicles\]\])", text)
+    last, rest = vehicles[-1].split("# Aerosonde", 1)
+    del last
+    head = re.sub(
+        r"points = \[.*?\n\]",
+        "points = [[0.0, 0.0, 0.0], [1200.0, 0.0, 80.0], [2239.0, 600.0, 80.0]]",
+        head,
+        flags=re.S,
+    )
+    head = head.replace('name = "vee"', 'name = "short"')
+    file = tmp_path_factory.mktemp("scenario") / "short.toml"
+    file.write_text(head + "".join(vehicles[:3]) + "# Aerosonde" + rest)
+    return file

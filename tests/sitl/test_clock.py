@@ -13,7 +13,7 @@ from gcs.swarm_clock import SwarmClock
 from missions.errors import InputError
 from sitl.clock import Clock, serve_clock
 from sitl.ticks import TICK_S, delay_ticks
-from sitl.zenoh_session import clock_key, discard_sockets, local_peers, open_session
+from sitl.zenoh_session import alive_key, clock_key, discard_sockets, local_peers, open_session
 
 
 def make_clock(held: bool = False, speed: float = math.inf) -> Clock:
@@ -66,15 +66,15 @@ def station() -> Iterator[tuple[zenoh.Session, Clock]]:
     clock = make_clock(held=True)
     with open_session(peers[4]) as vehicle, open_session(station_peer) as session:
         serve_clock(vehicle, "test", 4, clock)
-        while not session.info.peers_zid():
-            time.sleep(0.01)
+        alive = vehicle.liveliness().declare_token(alive_key("test", 4))
         yield session, clock
+        alive.undeclare()
     discard_sockets(peers[4])
 
 
 def test_the_station_releases_paces_holds_and_stops(station: tuple[zenoh.Session, Clock]) -> None:
     session, clock = station
-    swarm = SwarmClock(session, "test")
+    swarm = SwarmClock(session, "test", [4])
     swarm.release([4])
     assert not clock.held
     swarm.pace(2.5, [4])
@@ -91,8 +91,17 @@ def test_vehicles_that_do_not_answer_are_named(
     station: tuple[zenoh.Session, Clock], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("gcs.swarm_clock.TIMEOUT_S", 0.3)
-    with pytest.raises(InputError, match=r"\[5\]"):
-        SwarmClock(station[0], "test").release([4, 5])
+    clock = SwarmClock(station[0], "test", [4])
+    with pytest.raises(InputError, match=r"\[5\] did not answer"):
+        clock.release([4, 5])
+
+
+def test_vehicles_that_cannot_be_reached_are_named(
+    station: tuple[zenoh.Session, Clock], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gcs.swarm_clock.TIMEOUT_S", 0.3)
+    with pytest.raises(InputError, match=r"\[6\] cannot be reached"):
+        SwarmClock(station[0], "test", [4, 6])
 
 
 @pytest.mark.parametrize("request_", [b"", b"[]", b'{"do": "explode"}', b'{"speed": -1}', b'{"speed": "x"}', b"\xff"])
@@ -100,6 +109,7 @@ def test_nonsense_is_answered_with_an_error_and_changes_nothing(
     station: tuple[zenoh.Session, Clock], request_: bytes
 ) -> None:
     session, clock = station
+    SwarmClock(session, "test", [4])
     replies = list(session.get(clock_key("test"), payload=request_))
     assert [reply.ok for reply in replies] == [None]
     assert b"vehicle 4" in replies[0].err.payload.to_bytes()
@@ -109,6 +119,7 @@ def test_nonsense_is_answered_with_an_error_and_changes_nothing(
 
 def test_the_state_can_be_asked(station: tuple[zenoh.Session, Clock]) -> None:
     session, _ = station
+    SwarmClock(session, "test", [4])
     (reply,) = session.get(clock_key("test"))
     assert json.loads(reply.ok.payload.to_bytes()) == {
         "sysid": 4,

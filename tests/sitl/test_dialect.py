@@ -35,7 +35,6 @@ SHARED: dict[ModuleType, tuple[str, ...]] = {
         "ground_velocity",
         "path_accelerations",
         "airspeed_at",
-        "ahead_acceleration",
         "moved",
     ),
     sitl.formation.law: ("correction", "formation_acceleration"),
