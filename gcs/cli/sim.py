@@ -1,11 +1,14 @@
 """`skein sim`: a swarm of simulated vehicles for any ground station."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.options import ScenarioArgument, SeedOption
+
+if TYPE_CHECKING:
+    from sitl.swarm import Swarm
 
 STATION_HOST = "127.0.0.1"
 STATION_PORT = 14550
@@ -16,29 +19,25 @@ CountOption = Annotated[int | None, typer.Option("--count", metavar="N", min=1, 
 PaceOption = Annotated[
     float, typer.Option("--speed", metavar="X", min=0.0, help="Simulated seconds a second; 0 for as fast as it goes.")
 ]
+HeldOption = Annotated[bool, typer.Option("--held", help="Hold the clock at simulated time 0 until Enter is pressed.")]
 TcpPortOption = Annotated[
-    int, typer.Option("--tcp-port", metavar="P", min=0, max=65000, help="Of the first vehicle, 10 more each; 0: free ones.")
+    int, typer.Option("--tcp-port", metavar="P", min=0, max=65000, help="First vehicle's, 10 more each; 0: free ones.")
 ]
-HeldOption = Annotated[bool, typer.Option("--held", help="Start with the clock held at simulated time 0.")]
 
 
 def sim(
     scenario: ScenarioArgument = "radars",
     count: CountOption = None,
     speed: PaceOption = 1.0,
-    held: TcpPortOption = Annotated[
-    int, typer.Option("--tcp-port", metavar="P", min=0, max=65000, help="Of the first vehicle, 10 more each; 0: free ones.")
-]
-HeldOption = False,
+    held: HeldOption = False,
     seed: SeedOption = None,
+    tcp_port: TcpPortOption = 5760,
 ) -> None:
     """Leave a swarm running for any station: telemetry to UDP 14550, TCP at 5760, 5770, ... Ends with Ctrl-C.
 
     Example: skein sim vee --count 3
     """
     with exit_codes():
-        import time
-
         from gcs.cli import output
         from gcs.cli.tables import endpoint_table
         from missions.errors import InputError
@@ -59,13 +58,38 @@ HeldOption = False,
         )
         with Swarm(flown, options) as swarm:
             output.out.print(endpoint_table(flown, swarm, STATION_PORT))
+            if held:
+                _release_on_enter(swarm)
             output.out.print("Ctrl-C ends the simulation.")
-            lost: set[int] = set()
-            while len(lost) < len(swarm.endpoints):
-                for sysid, endpoint in swarm.endpoints.items():
-                    if sysid not in lost and (reason := endpoint.obituary()):
-                        lost.add(sysid)
-                        output.progress.print(f"vehicle {sysid} lost: {reason}")
-                time.sleep(WATCH_PERIOD_S)
-            raise SystemExit(FELL_SHORT)
+            _watch(swarm)
+        raise SystemExit(FELL_SHORT)
 
+
+def _release_on_enter(swarm: "Swarm") -> None:
+    """Wait for Enter, then let the clocks go; without a keyboard they stay held."""
+    from gcs.cli import output
+    from gcs.swarm_clock import SwarmClock
+    from sitl.zenoh_session import open_session
+
+    output.out.print("The clock is held; Enter releases it.")
+    try:
+        input()
+    except EOFError:
+        return
+    with open_session(swarm.station_peer) as session:
+        SwarmClock(session, swarm.name, swarm.endpoints).release(swarm.endpoints)
+
+
+def _watch(swarm: "Swarm") -> None:
+    """Say who was lost, until all are."""
+    import time
+
+    from gcs.cli import output
+
+    lost: set[int] = set()
+    while len(lost) < len(swarm.endpoints):
+        for sysid, endpoint in swarm.endpoints.items():
+            if sysid not in lost and (reason := endpoint.obituary()):
+                lost.add(sysid)
+                output.progress.print(f"vehicle {sysid} lost: {reason}")
+        time.sleep(WATCH_PERIOD_S)
