@@ -65,12 +65,14 @@ def plan(
         progress: told of every iteration.
 
     Raises:
-        InputError: there is no such method, or no plan was found that keeps to all limits; says which UAV and why.
+        InputError: no such method or seed, or no plan was found that keeps to all limits; says which UAV and why.
     """
     seed = scenario.seed if seed is None else seed
     method = SLOTS if scenario.route is not None else method or scenario.search.method
     if method != SLOTS and method not in SEARCHES:
         raise InputError(f"method {method}: must be one of {', '.join(SEARCHES)}")
+    if seed < 0:
+        raise InputError(f"seed {seed}: must be 0 or more")
     start = time.perf_counter()
     _compile(scenario)
     compiled = time.perf_counter()
