@@ -35,7 +35,7 @@ def tracks(references: Mapping[int, Reference], truths: Truths) -> Tracks:
     """Bring plan and truth to common ticks; a vehicle without truth was never seen."""
     sysids = tuple(sorted(references))
     ticks = 1 + math.floor(max(reference.duration_s for reference in references.values()) / TICK_S)
-    t_s: FloatArray = np.arange(ticks) * TICK_S
+    t_s = np.arange(ticks, dtype=np.float64) * TICK_S
     planned = np.full((len(sysids), ticks, 3), np.nan)
     flown = np.full_like(planned, np.nan)
     for i, sysid in enumerate(sysids):
