@@ -1,11 +1,12 @@
 """What a flight came to: metrics.json and figures, from truth, plan and scenario."""
 
 import contextlib
+from dataclasses import dataclass
 from typing import Any
 
 from gcs.figures import draw_all
 from gcs.flight_record import FlightRecord
-from gcs.metrics import measure, shortfalls
+from gcs.metrics import Series, measure, shortfalls
 from gcs.run_folder import RunFolder
 from gcs.truth import read_truth, read_truths
 from missions.errors import InputError
@@ -14,13 +15,23 @@ from planner.formation_plan import FormationPlan
 from sitl.formation.graph import edges
 
 
-def write_report(
-    run: RunFolder, scenario: Scenario, plan: FormationPlan, record: FlightRecord
-) -> tuple[dict[str, Any], list[str]]:
-    """Measure a flight, write metrics.json and the figures.
+@dataclass(frozen=True)
+class Report:
+    """What a flight came to.
 
-    Returns:
-        The metrics as JSON values, and what fell short, a line each.
+    Attributes:
+        metrics: what metrics.json holds.
+        shortfalls: what fell short, a line each.
+        series: figures of merit over time.
+    """
+
+    metrics: dict[str, Any]
+    shortfalls: list[str]
+    series: Series
+
+
+def write_report(run: RunFolder, scenario: Scenario, plan: FormationPlan, record: FlightRecord) -> Report:
+    """Measure a flight, write metrics.json and the figures.
 
     Raises:
         InputError: a truth file is missing, or the run's folder cannot be written to.
@@ -34,4 +45,4 @@ def write_report(
     values = metrics.as_json()
     run.write_json("metrics.json", values)
     draw_all(scenario, plan, truths, series, run.figures)
-    return values, shortfalls(metrics, scenario)
+    return Report(values, shortfalls(metrics, scenario), series)

@@ -62,14 +62,14 @@ def fly_and_report(
     with LiveTable(output.progress) as live:
         record = asyncio.run(fly_plan(scenario, plan, run, options, live.announce, live.show))
     output.progress.print("Computing figures of merit, drawing")
-    metrics, shortfalls = write_report(run, scenario, plan, record)
+    report = write_report(run, scenario, plan, record)
     if json:
-        output.print_json({"run": str(run.path), **metrics})
+        output.print_json({"run": str(run.path), **report.metrics})
     else:
-        output.out.print(flight_table(metrics))
-        output.out.print(formation_table(metrics))
-        for line in shortfalls:
+        output.out.print(flight_table(report.metrics))
+        output.out.print(formation_table(report.metrics))
+        for line in report.shortfalls:
             output.out.print(f"[red]Fell short:[/red] {line}")
         output.out.print(f"Run: {run.path}   (figures: {run.figures})")
-    if shortfalls:
+    if report.shortfalls:
         raise SystemExit(FELL_SHORT)
