@@ -1,6 +1,7 @@
-"""Endpoints' faces on real sockets, for the station to talk to."""
+"""Endpoints' faces on real sockets, for the station to talk to; plans and truth made by hand, to be measured."""
 
 import contextlib
+import math
 import re
 import threading
 import time
@@ -8,14 +9,25 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
 import pytest
 
+from gcs.flight_record import Event, FlightRecord, Timing
+from missions.commands import Command, Frame
 from missions.frame import LocalFrame
-from missions.scenario import read_scenario_text
+from missions.mission import Mission, MissionItem
+from missions.reference import Reference
+from missions.scenario import Scenario, VehicleModel, load_scenario, read_scenario_text
+from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
+from sitl.ticks import TICK_S
 
 Serve = Callable[..., StationLinks]
+FloatArray = npt.NDArray[np.float64]
+STRAIGHT_S = 1243.0
+"""Planned arrival of all vehicles on straight lines in `radars`."""
 
 
 @pytest.fixture
@@ -60,3 +72,85 @@ def short_scenario(tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("scenario") / "short.toml"
     file.write_text(head + "".join(vehicles[:3]) + "# Aerosonde" + rest)
     return file
+
+
+@pytest.fixture(scope="session")
+def radars() -> Scenario:
+    return load_scenario("radars")
+
+
+@pytest.fixture(scope="session")
+def few() -> Callable[[Scenario, int], Scenario]:
+    """The same scenario with its first vehicles only."""
+    return lambda scenario, count: scenario.model_copy(update={"vehicles": scenario.vehicles[:count]})
+
+
+@pytest.fixture(scope="session")
+def straight_plan() -> Callable[[Scenario], FormationPlan]:
+    """Plans from origins straight to targets, all arriving together."""
+
+    def make(scenario: Scenario) -> FormationPlan:
+        uavs = tuple(_straight_uav(scenario, vehicle) for vehicle in scenario.vehicles)
+        return FormationPlan(scenario.name, 7, "by hand", uavs, compile_s=0.1, plan_s=0.2)
+
+    return make
+
+
+def _straight_uav(scenario: Scenario, vehicle: VehicleModel) -> UavPlan:
+    ends = np.array([scenario.origin_m(vehicle), scenario.target_m(vehicle)])
+    length_m = math.dist(*ends)
+
+    def at(command: int, point: FloatArray) -> MissionItem:
+        lat_e7, lon_e7 = scenario.frame.to_e7(point[0], point[1])
+        alt_m = float(point[2]) + scenario.origin.alt_m
+        return MissionItem(command, Frame.GLOBAL, lat_e7=lat_e7, lon_e7=lon_e7, alt_m=alt_m)
+
+    ground_speed = MissionItem(Command.DO_CHANGE_SPEED, Frame.MISSION, 1.0, math.dist(*ends[:, :2]) / STRAIGHT_S, -1.0)
+    items = (at(Command.NAV_WAYPOINT, ends[0]), ground_speed, at(Command.NAV_LOITER_UNLIM, ends[1]))
+    terms = FitnessTerms(length_m / 1000.0, 0.7, 0.0, 0.0, 0.9)
+    history = (None, 1.2 * terms.fitness, terms.fitness)
+    return UavPlan(vehicle.sysid, vehicle.name, ends, terms, length_m, length_m, 450, history, Mission(items))
+
+
+@pytest.fixture(scope="session")
+def fly_exactly() -> Callable[[dict[int, Reference]], dict[int, FloatArray]]:
+    """Truth of vehicles that are where their plan wants them at every tick, and fly on for ten seconds."""
+
+    def fly(references: dict[int, Reference]) -> dict[int, FloatArray]:
+        longest_s = max(reference.duration_s for reference in references.values())
+        t_s = np.arange(math.ceil((longest_s + 10.0) / TICK_S)) * TICK_S
+        return {sysid: with_velocity(references[sysid].positions(t_s)) for sysid in sorted(references)}
+
+    return fly
+
+
+def with_velocity(positions_m: FloatArray) -> FloatArray:
+    """Rows of truth in still air from positions, (n_tick, 3)."""
+    velocity = np.gradient(positions_m, TICK_S, axis=0)
+    speed = np.linalg.norm(velocity, axis=1)
+    angles = np.column_stack([np.arcsin(velocity[:, 2] / speed), np.arctan2(velocity[:, 1], velocity[:, 0])])
+    return np.column_stack([positions_m, speed, angles])
+
+
+@pytest.fixture(scope="session")
+def make_record() -> Callable[..., FlightRecord]:
+    """Records of flights in which all items were uploaded and verified."""
+
+    def make(plan: FormationPlan, **changes: Any) -> FlightRecord:
+        items = {uav.sysid: len(uav.mission) for uav in plan.uavs}
+        values: dict[str, Any] = {
+            "seed": plan.seed,
+            "delay_s": 0.2,
+            "arm": "full",
+            "items_uploaded": items,
+            "items_verified": items,
+            "timing": Timing(plan.compile_s, plan.plan_s, 0.5, 0.2, 20.0, 1300.0, 65.0),
+            "events": (Event(1243.1, 1, "arrived"),),
+            "lost": {},
+            "late_samples": 0,
+            "lost_samples": 0,
+            "delay_margin_s": 0.65,
+        }
+        return FlightRecord(**(values | changes))
+
+    return make
