@@ -42,7 +42,7 @@ def test_clearance_counts_once_30_m_have_been_passed(radars: Scenario) -> None:
 def test_clearance_margin_grows_over_the_climb_out(radars: Scenario) -> None:
     limits = radars.limits
     flight = eastward((0.0, 31000.0, 0.0), 6000.0, climb=0.06)
-    # At 30 m, 500 m out, the limit asks for a quarter of itself; after the climb-out there is 0.06 s to spare, and more.
+    # 500 m out, at 30 m, the limit asks for a quarter of itself; from there on the flight gains on it.
     margin = surroundings(flight, radars).clearance_margin_m
     assert margin == pytest.approx(30.0 - limits.clearance_m * 500.0 / limits.climb_out_m, abs=0.1)
     level = flight.copy()
