@@ -48,7 +48,9 @@ def draw_plan_views(plan: FormationPlan, scenario: Scenario, truths: Truths | No
         above.set_xlim(x0 * KM, x1 * KM)
         above.set_ylim(y0 * KM, y1 * KM)
         above.set_ylabel("north y (km)")
-        side.set_title("From the south, not to scale")
+        side.set_title(
+            "From the south, not to scale" + ("" if ground.level else "; behind, the highest ground along y")
+        )
         side.set_xlabel("east x (km)")
         side.set_ylabel("altitude z (m)")
         style.headline(figure, f"{scenario.name}: {'planned' if truths is None else 'planned and flown'}")

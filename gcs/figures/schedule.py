@@ -20,7 +20,7 @@ def draw_schedule(scenario: Scenario, series: Series, path: Path) -> None:
             below.plot(schedule.t_s, deviation, color=colours[sysid], linewidth=1.2)
         for i in range(len(series.tracks.sysids)):
             planned_share = schedule.planned_m[i] * 100.0 / schedule.length_m[i]
-            above.plot(schedule.t_s, planned_share, color=style.INK, linewidth=0.6, linestyle=style.DASHES)
+            above.plot(schedule.t_s, planned_share, color=style.INK, linewidth=0.4, linestyle=style.DASHES)
         below.axhline(0.0, color=style.INK, linewidth=0.9, linestyle=style.DASHES)
         above.set_title("Progress along its path")
         above.set_ylabel("path flown (%)")
