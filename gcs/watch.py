@@ -1,8 +1,9 @@
 """Watching a flight: what each vehicle does, who has arrived, who was lost, and when to stop."""
 
 import asyncio
+import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
@@ -27,7 +28,8 @@ class VehicleStatus:
         planned_arrival_s: simulated time.
         items: of its mission.
         time_s: newest simulated time heard of.
-        arrived, lost: how it ended; `lost` says why.
+        arrived_s: when it was first heard of at the end of its mission, simulated time; NaN before.
+        lost: why it was lost; None if it was not.
     """
 
     sysid: int
@@ -40,13 +42,13 @@ class VehicleStatus:
     airspeed_m_s: float = 0.0
     altitude_m: float = 0.0
     cross_track_m: float = 0.0
-    arrived: bool = False
+    arrived_s: float = math.nan
     lost: str | None = None
 
     @property
-    def ended(self) -> bool:
-        """Whether there is nothing more to wait for."""
-        return self.arrived or self.lost is not None
+    def arrived(self) -> bool:
+        """Whether its mission is complete."""
+        return not math.isnan(self.arrived_s)
 
     def update(self, link: VehicleLink) -> None:
         """Take over the newest telemetry."""
@@ -59,7 +61,8 @@ class VehicleStatus:
             self.cross_track_m = navigation.xtrack_error
         if current := link.latest.get("MISSION_CURRENT"):
             self.item = current.seq
-            self.arrived = current.mission_state == mavlink.MISSION_STATE_COMPLETE
+            if not self.arrived and current.mission_state == mavlink.MISSION_STATE_COMPLETE:
+                self.arrived_s = self.time_s
 
 
 Display = Callable[[list[VehicleStatus]], None]
@@ -85,25 +88,31 @@ async def watch_flight(
     newest_s, moved_at = -1.0, time.monotonic()
     while True:
         for status in statuses:
-            if status.ended:
-                continue
-            status.update(links[status.sysid])
-            status.lost = endpoints[status.sysid].obituary()
-            if status.lost is not None:
-                status.arrived = False
-                events.append(Event(status.time_s, status.sysid, f"lost: {status.lost}"))
-            elif status.arrived:
-                events.append(Event(status.time_s, status.sysid, "arrived"))
+            if status.lost is None:
+                events.extend(_news(status, links[status.sysid], endpoints[status.sysid]))
         display(statuses)
-        flying = [status for status in statuses if not status.ended]
-        if not flying:
+        left = [status for status in statuses if status.lost is None]
+        flying = [status for status in left if not status.arrived]
+        # In lockstep vehicles may be some ticks apart: all are to live to see the last one's arrival.
+        if not flying and all(status.time_s >= max(one.arrived_s for one in left) for status in left):
             return events
-        if min(status.time_s - status.planned_arrival_s for status in flying) > OVERTIME_S:
+        if flying and min(status.time_s - status.planned_arrival_s for status in flying) > OVERTIME_S:
             events.extend(Event(status.time_s, status.sysid, "did not arrive in time") for status in flying)
             return events
-        if (now_s := max(status.time_s for status in flying)) > newest_s:
+        if (now_s := max((status.time_s for status in left), default=0.0)) > newest_s:
             newest_s, moved_at = now_s, time.monotonic()
         if time.monotonic() - moved_at > STALL_S:
-            events.extend(Event(status.time_s, status.sysid, f"silent for {STALL_S:g} s") for status in flying)
+            events.extend(Event(status.time_s, status.sysid, f"silent for {STALL_S:g} s") for status in left)
             return events
         await asyncio.sleep(PERIOD_S)
+
+
+def _news(status: VehicleStatus, link: VehicleLink, endpoint: Endpoint) -> Iterator[Event]:
+    """Bring one vehicle's status up to date; what has happened to it since."""
+    had_arrived = status.arrived
+    status.update(link)
+    status.lost = endpoint.obituary()
+    if status.lost is not None:
+        yield Event(status.time_s, status.sysid, f"lost: {status.lost}")
+    elif status.arrived and not had_arrived:
+        yield Event(status.arrived_s, status.sysid, "arrived")
