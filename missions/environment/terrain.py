@@ -60,7 +60,7 @@ def ground_height_m(x_m: float, y_m: float, terrain: Terrain) -> float:
         u = (x_m - peak[1]) / peak[3]
         v = (y_m - peak[2]) / peak[4]
         exponent = u * u + v * v
-        if exponent < 40.0:  # beyond, the peak adds less than 1e-14 m
+        if exponent < 25.0:  # beyond, a peak of 1 km adds less than 2e-8 m
             height += peak[0] * math.exp(-exponent)
     if terrain.wave[0] != 0.0:
         height = max(height, datum_wave_m(x_m, y_m, terrain.wave))
