@@ -76,20 +76,22 @@ class Fleet:
                 while not self.vehicles.keys() >= set(sysids):
                     self._news.clear()
                     await self._news.wait()
-                    self.check_conflicts()
+                    self.check()
         except TimeoutError:
             missing = ", ".join(str(sysid) for sysid in sorted(set(sysids) - self.vehicles.keys()))
             text = (
                 f"vehicle {missing}: no heartbeat within {timeout_s:g} s; check that it runs and sends to this station"
             )
             raise InputError(text) from None
-        self.check_conflicts()
+        self.check()
         return [self.vehicles[sysid] for sysid in sysids]
 
-    def check_conflicts(self) -> None:
-        """Raise InputError when two vehicles have been heard with one system id."""
+    def check(self) -> None:
+        """Raise InputError when two vehicles have been heard with one system id, or a log could not be written."""
         for text in self._conflicts.values():
             raise InputError(text)
+        for log in self._logs:
+            log.check()
 
     def _on_bytes(self, link: Link, data: bytes, peer: Peer) -> None:
         codec = self._codecs.setdefault((link, peer), Codec(station.SYSID, station.COMPID))

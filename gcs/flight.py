@@ -96,7 +96,7 @@ async def fly(
 
         announce("Releasing the clock")
         began = time.monotonic()
-        events, lost = await _fly_held(scenario, plan, swarm, vehicles, display)
+        events, lost = await _fly_held(scenario, plan, swarm, fleet, display)
         flight_wall_s = time.monotonic() - began
 
     flight_sim_s = max(vehicle.simulated_ms for vehicle in vehicles) / 1000.0
@@ -149,7 +149,7 @@ async def _arm_in_auto(vehicle: VehicleLink) -> None:
 
 
 async def _fly_held(
-    scenario: Scenario, plan: FormationPlan, swarm: Swarm, vehicles: list[VehicleLink], display: Display
+    scenario: Scenario, plan: FormationPlan, swarm: Swarm, fleet: Fleet, display: Display
 ) -> tuple[list[Event], dict[int, float]]:
     """Release the clocks, watch, and stop them; returns the events and when each lost vehicle was lost."""
     references = plan.references(scenario)
@@ -159,8 +159,7 @@ async def _fly_held(
     with open_session(swarm.station_peer) as session:
         clock = SwarmClock(session, swarm.name, swarm.endpoints)
         await asyncio.to_thread(clock.release, swarm.endpoints)
-        links = {vehicle.sysid: vehicle for vehicle in vehicles}
-        events = await watch_flight(statuses, links, swarm.endpoints, display)
+        events = await watch_flight(statuses, fleet.vehicles, swarm.endpoints, display, fleet.check)
         lost = {status.sysid: status.time_s for status in statuses if status.lost is not None}
         with contextlib.suppress(InputError):  # who does not answer is ended with the swarm
             await asyncio.to_thread(clock.stop, swarm.endpoints.keys() - lost.keys())

@@ -21,12 +21,23 @@ class TelemetryLog:
             self._file = path.open("wb", buffering=0)
         except OSError as error:
             raise InputError(f"{path}: {error.strerror}; choose a folder that can be written to") from error
+        self._path = path
         self._start_us = round(start_s * 1e6)
+        self._failure: OSError | None = None
 
     def write(self, simulated_ms: int, frame: bytes) -> None:
-        """Add one frame, stamped with the start plus the simulated time; nothing once closed."""
-        if not self._file.closed:
+        """Add one frame, stamped with the start plus the simulated time; nothing once closed, or after a failure."""
+        if self._file.closed or self._failure is not None:
+            return
+        try:
             self._file.write(_STAMP.pack(self._start_us + simulated_ms * 1000) + frame)
+        except OSError as error:
+            self._failure = error
+
+    def check(self) -> None:
+        """Raise InputError when the log is not complete, because a frame could not be written."""
+        if self._failure is not None:
+            raise InputError(f"{self._path}: {self._failure.strerror}; the log ends early, make room and fly again")
 
     def close(self) -> None:
         """Close the file."""

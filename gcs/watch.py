@@ -73,6 +73,7 @@ async def watch_flight(
     links: Mapping[int, VehicleLink],
     endpoints: Mapping[int, Endpoint],
     display: Display,
+    check: Callable[[], None],
 ) -> list[Event]:
     """Watch until every vehicle has arrived or was lost, or it is no use to wait longer.
 
@@ -80,6 +81,7 @@ async def watch_flight(
         statuses: one a vehicle; kept up to date.
         links, endpoints: of the vehicles, by sysid.
         display: called ten times a second with the statuses.
+        check: called as often; raises when it is no use to go on.
 
     Returns:
         What happened, in order.
@@ -91,6 +93,7 @@ async def watch_flight(
             if status.lost is None:
                 events.extend(_news(status, links[status.sysid], endpoints[status.sysid]))
         display(statuses)
+        check()
         left = [status for status in statuses if status.lost is None]
         flying = [status for status in left if not status.arrived]
         # In lockstep vehicles may be some ticks apart: all are to live to see the last one's arrival.

@@ -5,6 +5,8 @@ import math
 import signal
 import threading
 import time
+import traceback
+from collections.abc import Iterator
 from dataclasses import dataclass
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection, wait
@@ -89,8 +91,10 @@ def run_endpoint(config: EndpointConfig, reports: Connection) -> None:
     _end_with_parent()
     try:
         last: Report = _serve(config, reports)
-    except (InputError, OSError, ZError) as error:
-        last = Failed(f"vehicle {config.vehicle.sysid}: {error}")
+    except Exception as error:  # whatever it was, the station is to know why it lost a vehicle
+        if not isinstance(error, InputError | OSError | ZError):
+            traceback.print_exc()
+        last = Failed(f"vehicle {config.vehicle.sysid}: {error or type(error).__name__}")
     discard_sockets(config.peer)
     with contextlib.suppress(OSError):
         reports.send(last)
@@ -117,18 +121,37 @@ def _serve(config: EndpointConfig, reports: Connection) -> Ended:
         if missing := exchange.wait_for_neighbours(NEIGHBOURS_TIMEOUT_S):
             raise InputError(f"heard nothing of vehicles {sorted(missing)} over Zenoh")
 
-        stopped = threading.Event()
-        server = threading.Thread(target=links.run, args=(stopped,), name="mavlink")
-        server.start()
-        try:
+        face.on_simulated_tick(vehicle.snapshot())  # stations may look at a held vehicle
+        with _serving(links, clock):
             reports.send(Ready(links.tcp_port, links.udp_port))
             _fly(vehicle, face, exchange, clock, config.vehicle.delay_ticks)
-        finally:
-            stopped.set()
-            links.stop_waiting()
-            server.join()
-            alive.undeclare()
+        alive.undeclare()
         return Ended(vehicle.tick, exchange.rejected)
+
+
+@contextlib.contextmanager
+def _serving(links: StationLinks, clock: Clock) -> Iterator[None]:
+    """Within this context a thread serves the stations; an error there stops the clock, and is raised at the end."""
+    stopped = threading.Event()
+    errors: list[Exception] = []
+
+    def serve() -> None:
+        try:
+            links.run(stopped)
+        except Exception as error:
+            errors.append(error)
+            clock.stop()
+
+    thread = threading.Thread(target=serve, name="mavlink")
+    thread.start()
+    try:
+        yield
+    finally:
+        stopped.set()
+        links.stop_waiting()
+        thread.join()
+    if errors:
+        raise errors[0]
 
 
 def _fly(vehicle: Vehicle, face: MavlinkFace, exchange: Exchange, clock: Clock, delay_ticks: int) -> None:

@@ -18,7 +18,7 @@ from sitl.endpoint import Ended, EndpointConfig, Failed, Ready, Report, run_endp
 from sitl.formation.graph import edges, neighbour_weights
 from sitl.formation.law import Gains
 from sitl.ticks import delay_ticks
-from sitl.zenoh_session import Peer, local_peers
+from sitl.zenoh_session import Peer, discard_sockets, local_peers
 
 START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
@@ -98,13 +98,13 @@ class Swarm:
     def __init__(self, scenario: Scenario, options: SwarmOptions) -> None:
         self.name = uuid.uuid4().hex[:8]
         vehicles = vehicle_configs(scenario, options)
-        peers, self.station_peer = local_peers({vehicle.sysid: vehicle.weights for vehicle in vehicles})
+        self._peers, self.station_peer = local_peers({vehicle.sysid: vehicle.weights for vehicle in vehicles})
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(["sitl.endpoint"])
         self.endpoints: dict[int, Endpoint] = {}
         try:
             for i, vehicle in enumerate(vehicles):
-                config = self._endpoint_config(i, vehicle, peers[vehicle.sysid], options)
+                config = self._endpoint_config(i, vehicle, self._peers[vehicle.sysid], options)
                 reports, child_end = context.Pipe(duplex=False)
                 process = context.Process(
                     target=run_endpoint, args=(config, child_end), name=f"skein-{vehicle.sysid}", daemon=True
@@ -151,6 +151,8 @@ class Swarm:
                 endpoint.process.join()
             endpoint.read_reports()
             endpoint.reports.close()
+        for peer in self._peers.values():  # who was killed could not do it
+            discard_sockets(peer)
 
     def __enter__(self) -> "Swarm":
         return self

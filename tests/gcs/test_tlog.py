@@ -36,3 +36,13 @@ def test_what_comes_after_its_end_is_not_written(tmp_path: Path) -> None:
 def test_a_folder_that_is_not_there_is_an_input_error(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"3\.tlog: No such file"):
         TelemetryLog(tmp_path / "missing" / "3.tlog", 0.0)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_a_full_disk_is_told_not_swallowed() -> None:
+    log = TelemetryLog(Path("/dev/full"), 0.0)
+    log.check()
+    log.write(0, b"frame")
+    with pytest.raises(InputError, match="No space left on device; the log ends early"):
+        log.check()
+    log.close()

@@ -7,13 +7,16 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from missions.errors import InputError
 from missions.scenario import Scenario
-from sitl.endpoint import Ended
+from sitl.clock import Clock
+from sitl.endpoint import Ended, _serving
+from sitl.services.links import StationLinks
 from sitl.swarm import Swarm, SwarmOptions
 
 OPTIONS = SwarmOptions(seed=1, delay_s=0.2)
@@ -70,6 +73,37 @@ def test_a_killed_endpoint_has_an_obituary_and_the_others_fly_on(vee: Scenario, 
         size = (tmp_path / "1.f64").stat().st_size
         wait_until(lambda: (tmp_path / "1.f64").stat().st_size > size + 100_000)
         assert all(endpoint.obituary() is None for endpoint in swarm.endpoints.values() if endpoint is not victim)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_an_endpoint_that_cannot_write_its_truth_says_why(vee: Scenario, tmp_path: Path) -> None:
+    (tmp_path / "5.f64").symlink_to("/dev/full")
+    with Swarm(vee, SwarmOptions(seed=1, delay_s=0.2, held=False, truth=tmp_path)) as swarm:
+        wait_until(lambda: swarm.endpoints[5].obituary() is not None)
+        assert swarm.endpoints[5].obituary() == "vehicle 5: [Errno 28] No space left on device"
+        assert all(endpoint.obituary() is None for sysid, endpoint in swarm.endpoints.items() if sysid != 5)
+
+
+class BrokenFace:
+    """A face in which something goes wrong."""
+
+    def on_tick(self) -> None:
+        raise RuntimeError("broken")
+
+
+def test_an_error_in_the_mavlink_thread_ends_the_endpoint() -> None:
+    clock = Clock(held=True, speed=1.0, on_stop=lambda: None)
+    with closing(StationLinks()) as links:
+        links.attach(BrokenFace())
+        with pytest.raises(RuntimeError, match="broken"), _serving(links, clock):
+            assert not clock.wait_for(0)
+
+
+def test_a_killed_endpoints_socket_is_removed(vee: Scenario) -> None:
+    with Swarm(vee, OPTIONS) as swarm:
+        folder = Path(swarm.station_peer.connect[0].removeprefix("unixsock-stream/")).parent
+        os.kill(swarm.endpoints[2].process.pid or 0, signal.SIGKILL)
+    assert not folder.exists()
 
 
 def test_endpoints_end_when_their_station_is_killed(tmp_path: Path) -> None:
