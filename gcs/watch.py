@@ -99,13 +99,17 @@ async def watch_flight(
         # In lockstep vehicles may be some ticks apart: all are to live to see the last one's arrival.
         if not flying and all(status.time_s >= max(one.arrived_s for one in left) for status in left):
             return events
-        if flying and min(status.time_s - status.planned_arrival_s for status in flying) > OVERTIME_S:
-            events.extend(Event(status.time_s, status.sysid, "did not arrive in time") for status in flying)
-            return events
         if (now_s := max((status.time_s for status in left), default=0.0)) > newest_s:
             newest_s, moved_at = now_s, time.monotonic()
+        late = [status for status in flying if now_s - status.planned_arrival_s > OVERTIME_S]
+        if late:
+            events.extend(Event(status.time_s, status.sysid, "did not arrive in time") for status in late)
+            return events
         if time.monotonic() - moved_at > STALL_S:
-            events.extend(Event(status.time_s, status.sysid, f"silent for {STALL_S:g} s") for status in left)
+            # In lockstep all wait for the one that stands still: it is the one that is farthest behind.
+            behind_s = min(status.time_s for status in left)
+            silent = [status for status in left if status.time_s == behind_s]
+            events.extend(Event(status.time_s, status.sysid, f"silent for {STALL_S:g} s") for status in silent)
             return events
         await asyncio.sleep(PERIOD_S)
 

@@ -9,17 +9,19 @@ import numpy.typing as npt
 
 from missions.environment import ground_heights_m
 from missions.environment.obstacles import wall_distances_m
+from missions.environment.terrain import AIRBORNE_M
 from missions.mission import Mission
 from missions.reference import Reference, airspeed_on_track
 from missions.reference.reference import fillet_radius_m
-from missions.scenario import Scenario
+from missions.scenario import Scenario, VehicleModel
 from planner.limits import POWER_SHARE, airspeed_range_m_s, power_share
 
 FloatArray = npt.NDArray[np.float64]
 
 STEP_M = 5.0
-AIRBORNE_M = 30.0
-"""Clearance counts once this height above ground has been passed (MODEL, section 5)."""
+END_TOLERANCE_M = 1.0
+"""Between a mission's ends and the scenario's origin and target."""
+CIRCLE = np.linspace(0.0, 2.0 * np.pi, 180, endpoint=False)
 TOLERANCE_M = 0.05
 """The wire's own resolution: 1.1 cm of latitude and longitude, and what that does to the ground below."""
 TOLERANCE = 1e-3
@@ -161,6 +163,36 @@ def box(path: PathSamples, scenario: Scenario) -> tuple[float, list[str]]:
     if path.reference.loiter_z_m > high[2] + TOLERANCE_M:
         faults.append(f"loiters at {path.reference.loiter_z_m:.0f} m, above the highest altitude, {high[2]:.0f} m")
     return max(float(path.points_m[:, 2].max()), path.reference.loiter_z_m), faults
+
+
+def ends(mission: Mission, reference: Reference, vehicle: VehicleModel, scenario: Scenario) -> list[str]:
+    """Whether a mission leads from the scenario's origin to its target."""
+    home = mission.home
+    start = (*scenario.frame.from_e7(home.lat_e7, home.lon_e7), home.alt_m - scenario.frame.alt_m)
+    pairs = (("starts", start, scenario.origin_m(vehicle)), ("ends", reference.target_m, scenario.target_m(vehicle)))
+    return [
+        f"{verb} at {place(np.array(here))}, {distance:.0f} m from where the scenario has it"
+        for verb, here, wanted in pairs
+        if (distance := math.dist(here, wanted)) > END_TOLERANCE_M
+    ]
+
+
+def loiter(reference: Reference, scenario: Scenario) -> list[str]:
+    """Whether the circle at the end keeps clear of ground and walls and inside the area."""
+    x, y, _ = reference.target_m
+    radius, z = abs(reference.loiter_radius_m), reference.loiter_z_m
+    circle = np.stack([x + radius * np.cos(CIRCLE), y + radius * np.sin(CIRCLE), np.full_like(CIRCLE, z)], axis=-1)
+    limits, environment = scenario.limits, scenario.environment
+    area, faults = environment.area, []
+    above = z - ground_heights_m(circle[:, 0], circle[:, 1], environment.terrain)
+    if above.min() < limits.clearance_m - TOLERANCE_M:
+        faults.append(f"loiters {above.min():.0f} m above ground, limits.clearance_m is {limits.clearance_m:g}")
+    for i, obstacle in enumerate(environment.obstacles):
+        if (distance := float(wall_distances_m(circle, obstacle).min())) < limits.obstacle_margin_m - TOLERANCE_M:
+            faults.append(f"loiters {distance:.0f} m from obstacles[{i}], not {limits.obstacle_margin_m:g}")
+    if min(x - area.x_min_m, area.x_max_m - x, y - area.y_min_m, area.y_max_m - y) < radius:
+        faults.append(f"loiters at {place(circle[0])} with a radius of {radius:.0f} m, partly outside the area")
+    return faults
 
 
 def fillets(path: PathSamples) -> list[str]:

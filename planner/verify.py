@@ -85,13 +85,18 @@ def verify(plan: FormationPlan, scenario: Scenario) -> VerificationReport:
     """Check a plan against its scenario.
 
     Raises:
-        InputError: a mission has no way to fly at all.
+        InputError: the plan is for other vehicles than the scenario's, or a mission has no way to fly at all.
     """
+    planned, wanted = sorted(uav.sysid for uav in plan.uavs), sorted(vehicle.sysid for vehicle in scenario.vehicles)
+    if planned != wanted:
+        raise InputError(f"plan: is for vehicles {planned}, scenario {scenario.name} has {wanted}; plan it again")
+    vehicles = {vehicle.sysid: vehicle for vehicle in scenario.vehicles}
     references = plan.references(scenario)
     nearest, violations = _separations(plan, references, scenario)
     uavs = []
     for uav in plan.uavs:
         report, faults = _uav(uav, references[uav.sysid], nearest[uav.sysid], scenario)
+        faults += checks.ends(uav.mission, references[uav.sysid], vehicles[uav.sysid], scenario)
         uavs.append(report)
         violations += [Violation(uav.sysid, f"{uav.name}: {fault}") for fault in faults]
     order = {uav.sysid: i for i, uav in enumerate(plan.uavs)}
@@ -109,6 +114,7 @@ def _uav(uav: UavPlan, reference: Reference, nearest_m: float, scenario: Scenari
     slowest, fastest, share, speed_faults = checks.speeds(path, scenario)
     highest, box_faults = checks.box(path, scenario)
     faults += wall_faults + turn_faults + climb_faults + leg_faults + speed_faults + box_faults + checks.fillets(path)
+    faults += checks.loiter(reference, scenario)
     positions = reference.positions(np.arange(0.0, reference.duration_s, STEP_S))
     report = UavReport(
         sysid=uav.sysid,

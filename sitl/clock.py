@@ -41,8 +41,10 @@ class Clock:
 
     def wait_for(self, tick: int) -> bool:
         """Wait until a tick may begin; False when the clock has been stopped."""
+        self.tick = tick
+        if not (self.held or self.stopped or self.paced):
+            return True
         with self._changed:
-            self.tick = tick
             while not self.stopped:
                 if self.held:
                     self._anchor = None

@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+import os
 import signal
 import threading
 import time
@@ -94,7 +95,7 @@ def run_endpoint(config: EndpointConfig, reports: Connection) -> None:
     except Exception as error:  # whatever it was, the station is to know why it lost a vehicle
         if not isinstance(error, InputError | OSError | ZError):
             traceback.print_exc()
-        last = Failed(f"vehicle {config.vehicle.sysid}: {error or type(error).__name__}")
+        last = Failed(f"vehicle {config.vehicle.sysid}: {str(error) or type(error).__name__}")
     discard_sockets(config.peer)
     with contextlib.suppress(OSError):
         reports.send(last)
@@ -182,8 +183,8 @@ def _end_with_parent() -> None:
 
     def watch() -> None:
         wait([parent.sentinel])
-        signal.raise_signal(signal.SIGTERM)
+        os.kill(os.getpid(), signal.SIGTERM)  # to the process: raised in this thread, it would not wake the main one
         time.sleep(LAST_WORDS_S)
-        signal.raise_signal(signal.SIGKILL)
+        os.kill(os.getpid(), signal.SIGKILL)
 
     threading.Thread(target=watch, daemon=True, name="parent").start()

@@ -91,6 +91,11 @@ def ground_velocity(flight: Flight) -> Vector:
     return east + flight.wind[0], north + flight.wind[1], up + flight.wind[2]
 
 
+def at_point(flight: Flight, point: PathPoint) -> Flight:
+    """The flight with another place on the path."""
+    return Flight(flight.air, flight.controls, flight.gusts, flight.wind, point)
+
+
 def path_accelerations(errors: PathErrors, ahead: float) -> Accelerations:
     """Keep to the path with a given acceleration along it."""
     return Accelerations(

@@ -74,11 +74,13 @@ class Endpoint:
             self.last = report
 
     def obituary(self) -> str | None:
-        """Why the vehicle was lost; None while its process runs or when it has ended as told."""
+        """Why the vehicle was lost; None while its process runs. Not to be asked once the clock was told to stop."""
         self.read_reports()
         if isinstance(self.last, Failed):
             return self.last.reason
-        if self.process.is_alive() or self.last is not None:
+        if isinstance(self.last, Ended):
+            return f"process ended at tick {self.last.tick}, though nobody had stopped its clock"
+        if self.process.is_alive():
             return None
         code = self.process.exitcode or 0
         return f"process killed by {signal.Signals(-code).name}" if code < 0 else f"process ended with code {code}"

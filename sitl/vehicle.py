@@ -13,6 +13,7 @@ from sitl.config import VehicleConfig
 from sitl.events import ItemReached, StatusText
 from sitl.flight import (
     airspeed_at,
+    at_point,
     ground_velocity,
     in_next_wind,
     launched,
@@ -92,7 +93,8 @@ class Vehicle:
             progress = MissionProgress(mission, config.frame, config.airframe, config.forecast_wind_m_s)
         self.mission = mission
         self._progress = progress
-        self._flight = self._flight._replace(point=START)
+        self._errors = None
+        self._flight = at_point(self._flight, START)
 
     def arm(self) -> str | None:
         """Arm; returns the reason when it cannot be done."""
@@ -118,6 +120,7 @@ class Vehicle:
             return "nobody at the sticks"
         self.mode = mode
         if mode == Mode.LOITER:
+            self._errors = None
             self._loiter_here()
         elif mode == Mode.AUTO and self.airborne:
             self._rejoin()
@@ -217,7 +220,7 @@ class Vehicle:
         air, velocity = self._flight.air, ground_velocity(self._flight)
         time_s = (self.tick - start) * TICK_S
         errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, self._flight.point, progress.tables)
-        self._flight = self._flight._replace(point=point)
+        self._flight = at_point(self._flight, point)
         return errors
 
     def _ahead(self, errors: PathErrors, heard: Mapping[int, Correction]) -> float:
@@ -270,5 +273,5 @@ class Vehicle:
             return
         air = self._flight.air
         point, time_s = progress.rejoin(air.x, air.y, self._flight.point.s_m)
-        self._flight = self._flight._replace(point=point)
+        self._flight = at_point(self._flight, point)
         self._schedule_start_tick = self.tick - round(time_s / TICK_S)

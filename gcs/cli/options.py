@@ -1,5 +1,6 @@
 """Options that several commands share."""
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,23 +9,36 @@ import typer
 if TYPE_CHECKING:
     from sitl.config import Arm
 
+
+def _finite(value: float | None) -> float | None:
+    if value is not None and not math.isfinite(value):
+        raise typer.BadParameter(f"{value} is not a finite number")
+    return value
+
+
 ScenarioArgument = Annotated[
     str,
     typer.Argument(metavar="[SCENARIO|FILE]", help="A scenario that ships (mountains, radars, vee) or a TOML file."),
 ]
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run, as made by `skein plan`.")]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="New folder for the run.")]
-SeedOption = Annotated[int | None, typer.Option("--seed", min=0, help="Seed of search and gusts.")]
+SeedOption = Annotated[
+    int | None, typer.Option("--seed", min=0, max=2**63 - 1, metavar="N", help="Seed of search and gusts.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, and nothing else there.")]
 DelayOption = Annotated[
-    float | None, typer.Option("--delay", metavar="S", min=0.0, help="Delay of the corrections in seconds.")
+    float | None,
+    typer.Option("--delay", metavar="S", min=0.0, callback=_finite, help="Delay of the corrections in seconds."),
 ]
 NoCorrectionsOption = Annotated[
     bool, typer.Option("--no-corrections", help="Fly plain autopilots: no schedule, no neighbours.")
 ]
 NoNeighboursOption = Annotated[bool, typer.Option("--no-neighbours", help="Keep the own schedule, hear no neighbours.")]
 SpeedOption = Annotated[
-    float, typer.Option("--speed", metavar="X", min=0.0, help="Simulated seconds a second; 0 for as fast as it goes.")
+    float,
+    typer.Option(
+        "--speed", metavar="X", min=0.0, callback=_finite, help="Simulated seconds a second; 0 for as fast as it goes."
+    ),
 ]
 
 

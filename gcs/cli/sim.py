@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
-from gcs.cli.options import ScenarioArgument, SeedOption
+from gcs.cli.options import ScenarioArgument, SeedOption, SpeedOption
 
 if TYPE_CHECKING:
     from sitl.swarm import Swarm
@@ -16,9 +16,6 @@ STATION_PORT = 14550
 WATCH_PERIOD_S = 0.5
 
 CountOption = Annotated[int | None, typer.Option("--count", metavar="N", min=1, help="Only the first N vehicles.")]
-PaceOption = Annotated[
-    float, typer.Option("--speed", metavar="X", min=0.0, help="Simulated seconds a second; 0 for as fast as it goes.")
-]
 HeldOption = Annotated[bool, typer.Option("--held", help="Hold the clock at simulated time 0 until Enter is pressed.")]
 TcpPortOption = Annotated[
     int, typer.Option("--tcp-port", metavar="P", min=0, max=65000, help="First vehicle's, 10 more each; 0: free ones.")
@@ -28,7 +25,7 @@ TcpPortOption = Annotated[
 def sim(
     scenario: ScenarioArgument = "radars",
     count: CountOption = None,
-    speed: PaceOption = 1.0,
+    speed: SpeedOption = 1.0,
     held: HeldOption = False,
     seed: SeedOption = None,
     tcp_port: TcpPortOption = 5760,

@@ -17,7 +17,7 @@ WINDOW_TICKS = round(1.0 / TICK_S)
 
 @dataclass(frozen=True)
 class FlightLimits:
-    """One vehicle's extremes from launch to arrival; rates are None for a flight shorter than a second."""
+    """One vehicle's extremes from 30 m above ground to its arrival; rates are None for less than a second of it."""
 
     sysid: int
     airspeed_min_m_s: float
@@ -28,7 +28,7 @@ class FlightLimits:
 
 
 def flight_limits(sysid: int, truth: FloatArray) -> FlightLimits:
-    """The extremes of a truth, (n_tick, 6), that is cut at the arrival."""
+    """The extremes of a truth, (n_tick, 6), that is cut to what counts."""
     window_s = WINDOW_TICKS * TICK_S
     climbs = (truth[WINDOW_TICKS:, H] - truth[:-WINDOW_TICKS, H]) / window_s
     heading = np.unwrap(truth[:, CHI])

@@ -12,9 +12,9 @@ from gcs.metrics.arrival import Arrival, arrival
 from gcs.metrics.flight_limits import FlightLimits, flight_limits
 from gcs.metrics.formation_error import Edge
 from gcs.metrics.series import Series, flight_series
-from gcs.metrics.surroundings import Surroundings, surroundings
+from gcs.metrics.surroundings import Surroundings, airborne_row, surroundings
 from gcs.metrics.tracks import tracks
-from gcs.truth import Truths, trajectory_sha256
+from gcs.truth import H, Truths, trajectory_sha256
 from missions.scenario import Scenario
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from sitl.config import Arm
@@ -100,19 +100,24 @@ def measure(
     around = [surroundings(positions, scenario) for positions in common.flown_m]
     late = [end.time_s - references[i].duration_s for i, end in arrivals.items() if end.time_s is not None]
     ends = [end.tick for end in arrivals.values() if end.tick is not None]
+    # A vehicle that was lost or stopped leaves a truth that ends where chance had it.
+    whole = not record.lost and all(len(truth) > max(ends, default=0) for truth in truths.values())
     metrics = Metrics(
         scenario=scenario.name,
         seed=record.seed,
         delay_s=record.delay_s,
         arm=record.arm,
-        trajectory_sha256=trajectory_sha256(truths, max(ends)) if ends and not record.lost else None,
+        trajectory_sha256=trajectory_sha256(truths, max(ends)) if ends and whole else None,
         vehicles=tuple(
             _vehicle(uav, references[uav.sysid].duration_s, arrivals.get(uav.sysid), record) for uav in plan.uavs
         ),
         formation=_formation(series, around, late, record),
         timing=record.timing,
         events=record.events,
-        limits=tuple(flight_limits(sysid, truth[: _rows(arrivals[sysid])]) for sysid, truth in sorted(truths.items())),
+        limits=tuple(
+            flight_limits(sysid, truth[airborne_row(truth[:, : H + 1], scenario) or 0 : _rows(arrivals[sysid])])
+            for sysid, truth in sorted(truths.items())
+        ),
     )
     return metrics, series
 

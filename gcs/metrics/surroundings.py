@@ -8,13 +8,11 @@ import numpy.typing as npt
 from missions.environment import ground_heights_m
 from missions.environment.obstacles import wall_distances_m
 from missions.environment.radars import exposed
+from missions.environment.terrain import AIRBORNE_M
 from missions.scenario import Scenario
 from sitl.ticks import TICK_S
 
 FloatArray = npt.NDArray[np.float64]
-
-AIRBORNE_M = 30.0
-"""Clearance and exposure count once this height above ground has been passed (MODEL, section 5)."""
 
 
 @dataclass(frozen=True)
@@ -34,17 +32,24 @@ class Surroundings:
     radar_exposure_s: float
 
 
+def airborne_row(positions_m: FloatArray, scenario: Scenario) -> int | None:
+    """The first row of (n, 3) that is `AIRBORNE_M` above ground; None when there is none."""
+    above = positions_m[:, 2] - ground_heights_m(positions_m[:, 0], positions_m[:, 1], scenario.environment.terrain)
+    high = np.flatnonzero(above >= AIRBORNE_M)
+    return int(high[0]) if len(high) else None
+
+
 def surroundings(positions_m: FloatArray, scenario: Scenario) -> Surroundings:
     """Measure one vehicle's flight, (n_tick, 3) from its launch; NaN where it is not known."""
     flown = positions_m[np.isfinite(positions_m[:, 0])]
     environment, limits = scenario.environment, scenario.limits
-    above = flown[:, 2] - ground_heights_m(flown[:, 0], flown[:, 1], environment.terrain)
-    high = np.flatnonzero(above >= AIRBORNE_M)
-    if not len(high):
+    first = airborne_row(flown, scenario)
+    if first is None:
         return Surroundings(None, None, None, 0.0)
+    above = flown[:, 2] - ground_heights_m(flown[:, 0], flown[:, 1], environment.terrain)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(flown[:, :2], axis=0).T))])
     wanted = limits.clearance_m * np.minimum(1.0, along / limits.climb_out_m)
-    airborne = slice(high[0], None)
+    airborne = slice(first, None)
     walls = [float(wall_distances_m(flown[airborne], obstacle).min()) for obstacle in environment.obstacles]
     return Surroundings(
         clearance_m=float(above[airborne].min()),

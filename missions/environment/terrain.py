@@ -12,6 +12,8 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
+AIRBORNE_M = 30.0
+"""Clearance, exposure and limits count once this height above ground has been passed (MODEL, section 5)."""
 NO_WAVE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 

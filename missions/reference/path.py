@@ -27,12 +27,14 @@ class FilletedPath:
         length_m: arc length of the whole.
         corner_s_m: (m,) arc length at each corner of the polyline: 0, the middle of each arc, the length.
         corner_radius_m: (m,) radius of the arc at each corner; infinite where the path does not turn.
+        corner_turn: (m,) change of heading at each corner, radians, positive to the left.
     """
 
     segments: FloatArray
     length_m: float
     corner_s_m: FloatArray
     corner_radius_m: FloatArray
+    corner_turn: FloatArray
 
     def at(self, s_m: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """x, y, heading and curvature at arc lengths of any shape; beyond the ends the path goes on straight."""
@@ -134,4 +136,5 @@ def fillet(corners_m: FloatArray, radius_m: float) -> FilletedPath:
         length_m=s,
         corner_s_m=np.array(kept_s)[corner_of],
         corner_radius_m=np.array(kept_radius)[corner_of],
+        corner_turn=np.concatenate([[0.0], turns, [0.0]])[corner_of],
     )

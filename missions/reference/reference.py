@@ -14,7 +14,7 @@ from missions.frame import LocalFrame
 from missions.mission import Mission, MissionItem
 from missions.reference.path import FilletedPath, fillet
 from missions.reference.smoothing import moving_average, quadratics_at
-from missions.reference.wind_triangle import ground_speed_on_track
+from missions.reference.wind_triangle import airspeed_on_track, ground_speed_on_track
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -22,6 +22,10 @@ FILLET_BANK = math.radians(25.0)
 """Bank at which the fastest leg's ground speed flies the fillets."""
 ALTITUDE_WINDOW_M = 120.0
 SCHEDULE_WINDOW_S = 8.0
+SHARPEST_TURN = math.radians(150.0)
+"""Beyond, a corner has no room for an arc that an aircraft could fly."""
+FARTHEST_M = 1e6
+"""From the frame's origin; farther out the projection is no use."""
 SAME_PLACE_M = 1.0
 """A loiter this close to the waypoint before it is flown around that waypoint."""
 
@@ -113,72 +117,89 @@ class Reference:
         )
 
 
+class Speed(NamedTuple):
+    """What a DO_CHANGE_SPEED item asks for: an airspeed, or a speed over ground."""
+
+    m_s: float
+    over_ground: bool
+
+
 def build_reference(
     mission: Mission, frame: LocalFrame, airframe: Airframe, forecast_wind_m_s: tuple[float, float]
 ) -> Reference:
     """Build the reference of a mission from what the wire carries of it (MODEL, section 6).
 
     The path starts at home (item 0), goes through every NAV_WAYPOINT and ends at the last one or at the first
-    NAV_LOITER_UNLIM. DO_CHANGE_SPEED items set the legs' airspeeds from there on; the forecast wind turns them into
-    ground speeds. NAV_TAKEOFF has no place of its own: the aircraft is launched along the first leg.
+    NAV_LOITER_UNLIM. DO_CHANGE_SPEED items set the legs' air or ground speeds from there on; the forecast wind turns
+    one into the other. As on ArduPlane, speeds outside the airframe's limits are ignored, and latitude and longitude 0
+    mean "where it is". NAV_TAKEOFF has no place of its own: the aircraft is launched along the first leg.
 
     Raises:
-        InputError: the mission has no way to fly, or a leg cannot be flown against the forecast wind.
+        InputError: the mission has no way to fly, turns too sharply, leads too far away, or a leg cannot be flown
+            against the forecast wind.
     """
     corners: list[tuple[float, float, float]] = [_position(mission.home, mission, frame)]
     seqs = [0]
-    airspeeds: list[float] = []
-    leg_airspeed, leg_is_ground_speed = airframe.airspeed_cruise_m_s, False
-    is_ground_speed: list[bool] = []
+    wanted: list[Speed] = []
+    cruise = speed = Speed(airframe.airspeed_cruise_m_s, over_ground=False)
     loiter: MissionItem | None = None
     for seq, item in enumerate(mission.items[1:], start=1):
         if item.command == Command.DO_CHANGE_SPEED:
-            if item.param2 > 0:
-                leg_airspeed, leg_is_ground_speed = item.param2, item.param1 == 1
-            elif item.param2 == -2:
-                leg_airspeed, leg_is_ground_speed = airframe.airspeed_cruise_m_s, False
+            if item.param2 == -2:
+                speed = cruise
+            elif item.param1 == 1 or (item.param1 == 0 and _flyable(item.param2, airframe)):
+                speed = Speed(item.param2, over_ground=item.param1 == 1)
             continue
         if item.command not in (Command.NAV_WAYPOINT, Command.NAV_LOITER_UNLIM):
             continue
         position = _position(item, mission, frame)
+        if item.lat_e7 == 0 and item.lon_e7 == 0:
+            position = (*corners[-1][:2], position[2])
+        if not math.hypot(*position[:2]) < FARTHEST_M:
+            raise InputError(f"mission item {seq}: more than {FARTHEST_M / 1000:g} km from the scenario's origin")
         if item.command == Command.NAV_LOITER_UNLIM:
             loiter = item
         if loiter is None or math.dist(position[:2], corners[-1][:2]) >= SAME_PLACE_M:
             corners.append(position)
             seqs.append(seq)
-            airspeeds.append(leg_airspeed)
-            is_ground_speed.append(leg_is_ground_speed)
+            wanted.append(speed)
         if loiter is not None:
             break
     points = np.array(corners)
     if len(points) < 2 or np.ptp(points[:, :2], axis=0).max() < SAME_PLACE_M:
         raise InputError("mission: no waypoint away from home; add a NAV_WAYPOINT")
 
-    def speeds(path: FilletedPath) -> tuple[FloatArray, FloatArray]:
-        """(ground speed, slope) of each leg."""
+    legs = np.diff(points[:, :2], axis=0)
+    headings = np.arctan2(legs[:, 1], legs[:, 0])
+
+    def speeds(path: FilletedPath) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """(airspeed, ground speed, slope) of each leg."""
         arc = np.maximum(np.diff(path.corner_s_m), 1e-9)
-        slope = np.where(arc > SAME_PLACE_M, np.diff(points[:, 2]) / arc, 0.0)
-        legs = np.diff(points[:, :2], axis=0)
-        result = []
-        for i, (dx, dy) in enumerate(legs):
-            if is_ground_speed[i]:
-                result.append(airspeeds[i])
-                continue
+        slopes = np.where(arc > SAME_PLACE_M, np.diff(points[:, 2]) / arc, 0.0)
+        pairs = []
+        for i, want in enumerate(wanted):
             try:
-                result.append(ground_speed_on_track(airspeeds[i], slope[i], math.atan2(dy, dx), forecast_wind_m_s))
+                pairs.append(_leg_speeds(want, float(slopes[i]), float(headings[i]), airframe, forecast_wind_m_s))
             except ValueError as error:
                 raise InputError(f"mission item {seqs[i + 1]}: {error}") from None
-        return np.array(result), slope
+        airspeeds, ground_speeds = np.array(pairs).T
+        return airspeeds, ground_speeds, slopes
 
     # The radius follows from the ground speeds, and they, through the slopes, weakly from the arcs: correct once.
-    ground_speed, slope = speeds(fillet(points[:, :2], 0.0))
+    _, ground_speed, _ = speeds(fillet(points[:, :2], 0.0))
     path = fillet(points[:, :2], fillet_radius_m(float(ground_speed.max())))
-    ground_speed, slope = speeds(path)
+    airspeed, ground_speed, slope = speeds(path)
+    for k in np.flatnonzero(np.abs(path.corner_turn) > SHARPEST_TURN):
+        raise InputError(
+            f"mission item {seqs[k]}: a turn of {math.degrees(abs(path.corner_turn[k])):.0f} degrees; "
+            f"at most {math.degrees(SHARPEST_TURN):.0f} are flown, put a waypoint more into it"
+        )
 
     arc = np.diff(path.corner_s_m)
     corner_time = np.concatenate([[0.0], np.cumsum(arc / ground_speed)])
     duration = float(corner_time[-1])
     apart = np.concatenate([[True], arc > 0.0])
+    last_of_place = np.concatenate([arc > 0.0, [True]])
     schedule = moving_average(corner_time[apart], path.corner_s_m[apart], SCHEDULE_WINDOW_S)
     ends, _ = quadratics_at(np.array([0.0, duration]), schedule)
     schedule[:, 1] -= ends[0]
@@ -186,18 +207,38 @@ def build_reference(
 
     return Reference(
         path=path,
-        altitude=moving_average(path.corner_s_m[apart], points[apart, 2], ALTITUDE_WINDOW_M),
+        altitude=moving_average(path.corner_s_m[last_of_place], points[last_of_place, 2], ALTITUDE_WINDOW_M),
         schedule=schedule,
         duration_s=duration,
         corner_seq=tuple(seqs),
         corner_time_s=corner_time,
-        leg_airspeed_m_s=np.array(airspeeds),
+        leg_airspeed_m_s=airspeed,
         leg_ground_speed_m_s=ground_speed,
         leg_slope=slope,
         target_m=corners[-1],
         loiter_radius_m=_loiter_radius_m(loiter, float(ground_speed.max())),
         loiter_z_m=_position(loiter, mission, frame)[2] if loiter is not None else corners[-1][2],
     )
+
+
+def _flyable(airspeed_m_s: float, airframe: Airframe) -> bool:
+    return airframe.airspeed_min_m_s <= airspeed_m_s <= airframe.airspeed_max_m_s
+
+
+def _leg_speeds(
+    wanted: Speed, slope: float, heading: float, airframe: Airframe, wind_m_s: tuple[float, float]
+) -> tuple[float, float]:
+    """(airspeed, ground speed) of a leg; at cruise when the wanted ground speed takes an airspeed that is not flown.
+
+    Raises:
+        ValueError: the wind lets nothing through.
+    """
+    if wanted.over_ground:
+        airspeed = airspeed_on_track(wanted.m_s, slope, heading, wind_m_s)
+        if wanted.m_s > 0.0 and _flyable(airspeed, airframe):
+            return airspeed, wanted.m_s
+    airspeed = airframe.airspeed_cruise_m_s if wanted.over_ground else wanted.m_s
+    return airspeed, ground_speed_on_track(airspeed, slope, heading, wind_m_s)
 
 
 def fillet_radius_m(ground_speed_m_s: float) -> float:

@@ -54,6 +54,8 @@ def _sampled_margin_s(eigenvalue: float, gains: Gains, thrust_lag_s: float, tick
     own[:2] = gains.k0, gains.k3
     heard = np.zeros(len(plant))
     heard[:2] = gains.k1, gains.k2
+    if not heard.any():
+        return math.inf
     closed = plant - np.outer(drive, own)
     if np.abs(np.linalg.eigvals(closed - eigenvalue * np.outer(drive, heard))).max() >= 1.0:
         return 0.0

@@ -63,10 +63,10 @@ def check_item(message: Message) -> MissionItem | int:
     positional = item.command in _POSITION_COMMANDS
     if item.frame not in _POSITION_FRAMES and (positional or item.frame != Frame.MISSION):
         return int(mavlink.MAV_MISSION_UNSUPPORTED_FRAME)
-    return _invalid_field(item, positional) or item
+    return _invalid_field(item) or item
 
 
-def _invalid_field(item: MissionItem, positional: bool) -> int:
+def _invalid_field(item: MissionItem) -> int:
     """The INVALID_PARAMn of the first field that cannot be stored, 0 when there is none."""
     first_param = int(mavlink.MAV_MISSION_INVALID_PARAM1)
     for index, value in enumerate(item.params[:3]):
@@ -74,9 +74,9 @@ def _invalid_field(item: MissionItem, positional: bool) -> int:
             return first_param + index
     if math.isinf(item.param4):  # NaN is the default heading
         return int(mavlink.MAV_MISSION_INVALID_PARAM4)
-    if positional and abs(item.lat_e7) > 90 * 10**7:
+    if abs(item.lat_e7) > 90 * 10**7:
         return int(mavlink.MAV_MISSION_INVALID_PARAM5_X)
-    if positional and abs(item.lon_e7) > 180 * 10**7:
+    if abs(item.lon_e7) > 180 * 10**7:
         return int(mavlink.MAV_MISSION_INVALID_PARAM6_Y)
     if not abs(item.alt_m) <= _LARGEST_ALTITUDE_M:  # NaN included
         return int(mavlink.MAV_MISSION_INVALID_PARAM7)

@@ -11,6 +11,7 @@ from functools import cached_property
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from missions.airframe import GRAVITY_M_S2
 from missions.commands import NAVIGATION
 from missions.frame import LocalFrame
 from missions.mission import Mission, degrees_to_e7
@@ -19,7 +20,6 @@ from sitl.services.opaque_id import MissionCurrent
 from sitl.services.peer import Message
 from sitl.snapshot import Snapshot
 
-_GRAVITY_M_S2 = 9.80665
 _GPS_SATELLITES = 12
 _GPS_DILUTION = 80  # hundredths
 _SENSORS = (
@@ -52,8 +52,8 @@ class View:
 
     @property
     def time_boot_ms(self) -> int:
-        """Simulated time."""
-        return round(self.snapshot.time_s * 1000)
+        """Simulated time; like every autopilot's, it begins anew after 49.7 days."""
+        return round(self.snapshot.time_s * 1000) % 2**32
 
     @cached_property
     def lat_lon_e7(self) -> tuple[int, int]:
@@ -94,7 +94,7 @@ def attitude(view: View) -> Message:
     """ATTITUDE: wings and nose along the air velocity; the yaw rate is that of a coordinated turn."""
     now = view.snapshot
     roll = -now.bank
-    yaw_rate = _GRAVITY_M_S2 * math.tan(roll) / now.airspeed_m_s if now.airborne and now.airspeed_m_s > 0 else 0.0
+    yaw_rate = GRAVITY_M_S2 * math.tan(roll) / now.airspeed_m_s if now.airborne and now.airspeed_m_s > 0 else 0.0
     return mavlink.MAVLink_attitude_message(view.time_boot_ms, roll, now.climb_angle, view.yaw, 0.0, 0.0, yaw_rate)
 
 
@@ -155,7 +155,7 @@ def gps_raw(view: View) -> Message:
     """GPS_RAW_INT."""
     east, north, _ = view.snapshot.ground_velocity_m_s
     return mavlink.MAVLink_gps_raw_int_message(
-        view.time_boot_ms * 1000,
+        round(view.snapshot.time_s * 1e6),
         mavlink.GPS_FIX_TYPE_3D_FIX,
         *view.lat_lon_e7,
         round(view.altitude_m * 1000),

@@ -19,6 +19,8 @@ DEFAULT_INTERVALS_US = dict.fromkeys(BUILDERS, 1_000_000) | {
 }
 
 _NEVER_US = 2**63
+_LONGEST_US = 2**31 - 1
+"""What MESSAGE_INTERVAL can say."""
 
 
 class Telemetry:
@@ -73,7 +75,7 @@ class Telemetry:
             return False
         if interval_us == 0:
             interval_us = DEFAULT_INTERVALS_US[message_id]
-        if not (interval_us == OFF_US or TICK_US <= interval_us < _NEVER_US):
+        if not (interval_us == OFF_US or TICK_US <= interval_us <= _LONGEST_US):
             return False
         interval = int(interval_us)
         self._intervals_us[message_id] = interval

@@ -3,13 +3,12 @@
 from collections.abc import Iterator
 from typing import Any
 
+import mavsdk
 import pytest
+from mavsdk.plugins.mission_raw import mission_raw
 
 from missions.commands import Frame
 from missions.mission import MissionItem
-
-mavsdk = pytest.importorskip("mavsdk")
-mission_raw = pytest.importorskip("mavsdk.plugins.mission_raw.mission_raw")
 
 PATIENCE_S = 20.0
 

@@ -9,14 +9,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import mavsdk
 import pytest
+from mavsdk.plugins.action import action
+from mavsdk.plugins.mission_raw import mission_raw
 
 from missions.scenario import load_scenario
 from planner.plan import plan
-
-mavsdk = pytest.importorskip("mavsdk")
-action = pytest.importorskip("mavsdk.plugins.action.action")
-mission_raw = pytest.importorskip("mavsdk.plugins.mission_raw.mission_raw")
 
 PATIENCE_S = 20.0
 

@@ -179,14 +179,44 @@ def test_a_loiter_above_the_highest_altitude_is_found(scenario: Scenario) -> Non
     assert any("loiters at 1240 m" in fault for fault in faults(scenario, planned(scenario, loiter_z_m=1240.0)))
 
 
+@pytest.mark.parametrize(
+    ("end", "text"),
+    [
+        ((10000, -2300, 600), "loiters 200 m from obstacles[0], not 300"),
+        ((10000, 2700, 600), "loiters 36 m above ground, limits.clearance_m is 100"),
+        ((20900, 0, 600), "with a radius of 200 m, partly outside the area"),
+    ],
+)
+def test_a_loiter_too_close_to_something_is_found(
+    scenario: Scenario, end: tuple[float, float, float], text: str
+) -> None:
+    wide = scenario.model_copy(update={"limits": scenario.limits.model_copy(update={"obstacle_margin_m": 300.0})})
+    path = [SOUND[0], (5000, end[1] / 2, 300), end]
+    found = faults(wide, planned(wide, path))
+    assert any(text in fault for fault in found), found
+
+
+def test_a_mission_that_ends_elsewhere_than_the_scenario_says_is_found(scenario: Scenario) -> None:
+    elsewhere = planned(scenario, [*SOUND[:-1], (19700, 0, 600)], [(0, 1040, 0), *BESIDE[1:]])
+    found = faults(scenario, elsewhere)
+    assert "one: ends at (19700, 0, 600), 300 m from where the scenario has it" in found
+    assert "two: starts at (0, 1040, 0), 40 m from where the scenario has it" in found
+
+
+def test_a_plan_for_other_vehicles_is_refused(scenario: Scenario) -> None:
+    plan = planned(scenario)
+    with pytest.raises(InputError, match=r"plan: is for vehicles \[7\], scenario bench has \[3, 7\]; plan it again"):
+        verify(replace(plan, uavs=plan.uavs[:1]), scenario)
+
+
 def test_crossing_at_the_same_time_is_found_and_blamed_on_the_later(scenario: Scenario) -> None:
-    north: Path = [(0, 0, 0), (5000, 0, 300), (10000, 500, 500), (15000, 1000, 600), (20000, 1000, 600)]
+    north: Path = [(0, 0, 0), (5000, 0, 300), (10000, 500, 500), (15000, 0, 600), (20000, 0, 600)]
     south: Path = [(x, 1000 - y, z) for x, y, z in north]
     report = verify(planned(scenario, north, south), scenario)
     assert [violation.sysid for violation in report.violations] == [3]
-    assert "two: 0 m from one after" in report.violations[0].text
+    assert "two: 2 m from one after" in report.violations[0].text
     assert report.at_fault == {3}
-    with pytest.raises(InputError, match="plan: two: 0 m from one"):
+    with pytest.raises(InputError, match="plan: two: 2 m from one"):
         require(report)
 
 

@@ -106,7 +106,15 @@ def test_a_killed_endpoints_socket_is_removed(vee: Scenario) -> None:
     assert not folder.exists()
 
 
-def test_endpoints_end_when_their_station_is_killed(tmp_path: Path) -> None:
+def test_an_endpoint_that_someone_terminates_is_lost(vee: Scenario) -> None:
+    with Swarm(vee, OPTIONS) as swarm:
+        os.kill(swarm.endpoints[6].process.pid or 0, signal.SIGTERM)
+        wait_until(lambda: swarm.endpoints[6].obituary() is not None)
+        assert swarm.endpoints[6].obituary() == "process ended at tick 0, though nobody had stopped its clock"
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_endpoints_end_in_good_order_when_their_station_is_killed(tmp_path: Path, held: bool) -> None:
     """The station is a process of its own, killed without a chance to clean up."""
     script = tmp_path / "station.py"
     script.write_text(
@@ -114,7 +122,7 @@ def test_endpoints_end_when_their_station_is_killed(tmp_path: Path) -> None:
         "if __name__ == '__main__':\n"
         "    from missions.scenario import load_scenario\n"
         "    from sitl.swarm import Swarm, SwarmOptions\n"
-        "    swarm = Swarm(load_scenario('vee'), SwarmOptions(seed=1, delay_s=0.2, held=False))\n"
+        f"    swarm = Swarm(load_scenario('vee'), SwarmOptions(seed=1, delay_s=0.2, held={held}))\n"
         "    print(*[e.process.pid for e in swarm.endpoints.values()], swarm.station_peer.connect[0], flush=True)\n"
         "    time.sleep(600)\n"
     )

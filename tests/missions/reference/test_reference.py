@@ -106,3 +106,46 @@ def test_a_mission_that_goes_nowhere_is_refused(items: tuple[MissionItem, ...]) 
 def test_a_leg_that_cannot_be_flown_against_the_wind_is_named() -> None:
     with pytest.raises(InputError, match="mission item 2"):
         reference(HOME, speed(20), item(4000, 0, 0), wind=(-25, 0))
+
+
+@pytest.mark.parametrize("change", [speed(5), speed(100), speed(3, kind=2), speed(0), speed(float("nan"))])
+def test_speeds_that_cannot_be_flown_are_ignored(change: MissionItem) -> None:
+    assert reference(HOME, speed(25), change, item(4000, 0, 0)).leg_airspeed_m_s.tolist() == [25]
+
+
+def test_a_ground_speed_gives_the_airspeed_that_a_plain_autopilot_holds() -> None:
+    ref = reference(HOME, speed(25, kind=1), item(4000, 0, 0), wind=(-6, 0))
+    assert ref.leg_airspeed_m_s == pytest.approx([31])
+
+
+def test_a_ground_speed_that_takes_too_much_airspeed_is_ignored() -> None:
+    ref = reference(HOME, speed(35, kind=1), item(4000, 0, 0), wind=(-6, 0))
+    assert ref.leg_airspeed_m_s == pytest.approx([AIRFRAME.airspeed_cruise_m_s])
+
+
+def test_the_speed_goes_back_to_cruise_when_asked() -> None:
+    ref = reference(HOME, speed(25), item(4000, 0, 0), speed(-2), item(8000, 0, 0))
+    assert ref.leg_airspeed_m_s.tolist() == [25, AIRFRAME.airspeed_cruise_m_s]
+
+
+def test_a_turn_on_the_spot_is_refused_by_name() -> None:
+    with pytest.raises(InputError, match=r"mission item 1: a turn of 180 degrees"):
+        reference(HOME, item(4000, 0, 100), item(1000, 0, 100))
+
+
+def test_of_two_altitudes_in_one_place_the_last_is_kept() -> None:
+    ref = reference(HOME, item(3000, 0, 100), item(3000, 0, 300), item(6000, 0, 300))
+    assert ref.points(np.array([4500.0]))[0, 2] == pytest.approx(300, abs=0.1)
+
+
+def test_latitude_and_longitude_0_mean_where_it_is() -> None:
+    here = MissionItem(Command.NAV_LOITER_UNLIM, Frame.GLOBAL, alt_m=600)
+    ref = reference(HOME, item(3000, 0, 100), here)
+    assert ref.target_m[0] == pytest.approx(3000, abs=0.02)
+    assert ref.loiter_z_m == pytest.approx(200, abs=0.01)
+
+
+def test_the_other_side_of_the_world_is_refused() -> None:
+    far = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=-470_000_000, lon_e7=-1_720_000_000, alt_m=500)
+    with pytest.raises(InputError, match=r"mission item 1: more than 1000 km"):
+        reference(HOME, far)
