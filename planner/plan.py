@@ -97,7 +97,7 @@ def _searched(scenario: Scenario, seed: int, method: str, progress: Progress) ->
     """Search for one path after the other; begin again with the first UAV that the verifier finds fault with."""
     vehicles = scenario.vehicles
     names = [vehicle.name for vehicle in vehicles]
-    attempts = [0] * len(vehicles)
+    attempts, at_fault = [0] * len(vehicles), [0] * len(vehicles)
     paths: list[PathFound] = []
     while True:
         for i in range(len(paths), len(vehicles)):
@@ -106,21 +106,22 @@ def _searched(scenario: Scenario, seed: int, method: str, progress: Progress) ->
                 feasible = best if best < INFEASIBLE_KM else None
                 progress(PlanProgress(uav, len(vehicles), names[uav], iteration, iterations, feasible))
 
-            while True:
+            for _ in range(ATTEMPTS):
                 path = find_path(
                     scenario, vehicles[i], paths, method=method, seed=seed, attempt=attempts[i], report=tell
                 )
                 attempts[i] += 1
-                if path.feasible or attempts[i] >= ATTEMPTS:
+                if path.feasible:
                     break
-            require_feasible(names[i], path, attempts[i])
+            require_feasible(names[i], path, ATTEMPTS)
             paths.append(path)
         schedules = common_arrival(names, [path.corners_m for path in paths], scenario)
         result, report = _assembled(scenario, seed, method, paths, schedules)
         if not report.violations:
             return result
         first = min(i for i, vehicle in enumerate(vehicles) if vehicle.sysid in report.at_fault)
-        if attempts[first] >= ATTEMPTS:
+        at_fault[first] += 1
+        if at_fault[first] >= ATTEMPTS:
             require(report)
         del paths[first:]
 
