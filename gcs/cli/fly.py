@@ -70,6 +70,7 @@ def fly_and_report(
         output.out.print(formation_table(report.metrics))
         for line in report.shortfalls:
             output.out.print(f"[red]Fell short:[/red] {line}")
-        output.out.print(f"Run: {run.path}   (figures: {run.figures})")
+        output.out.print(f"Run:     {run.path}", soft_wrap=True)
+        output.out.print(f"Figures: {run.figures}", soft_wrap=True)
     if report.shortfalls:
         raise SystemExit(FELL_SHORT)

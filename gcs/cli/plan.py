@@ -36,7 +36,8 @@ def plan(
             output.print_json({"run": str(run.path), **result.as_json()})
             return
         output.out.print(plan_table(result))
-        output.out.print(f"Run: {run.path}   (fly it: skein fly {run.path})")
+        output.out.print(f"Run:    {run.path}", soft_wrap=True)
+        output.out.print(f"Fly it: skein fly {run.path}", soft_wrap=True)
 
 
 def plan_run(
