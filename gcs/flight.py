@@ -4,8 +4,9 @@ import asyncio
 import contextlib
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from gcs.fleet import Fleet
 from gcs.flight_record import Event, FlightRecord, Timing
@@ -33,6 +34,10 @@ from sitl.ticks import TICK_S, delay_ticks
 from sitl.zenoh_session import open_session
 
 HEARTBEAT_TIMEOUT_S = 30.0
+LOSS_PERIOD_S = 0.1
+"""How often the endpoints are looked after during set-up."""
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -86,13 +91,12 @@ async def fly(
 
         announce("Uploading missions and reading them back")
         began = time.monotonic()
-        verified = await asyncio.gather(
-            *(upload_and_verify(vehicle, uav.mission) for vehicle, uav in zip(vehicles, plan.uavs, strict=True))
-        )
+        pairs = zip(vehicles, plan.uavs, strict=True)
+        verified = await _unless_lost(swarm, *(upload_and_verify(vehicle, uav.mission) for vehicle, uav in pairs))
         upload_s = time.monotonic() - began
 
         announce("Arming, AUTO")
-        await asyncio.gather(*(_arm_in_auto(vehicle) for vehicle in vehicles))
+        await _unless_lost(swarm, *(_arm_in_auto(vehicle) for vehicle in vehicles))
 
         announce("Releasing the clock")
         began = time.monotonic()
@@ -141,6 +145,19 @@ def _swarm_options(plan: FormationPlan, run: RunFolder, options: FlightOptions, 
         stations=((LOOPBACK, port),),
         truth=run.truth,
     )
+
+
+async def _unless_lost(swarm: Swarm, *work: Coroutine[Any, Any, Result]) -> list[Result]:
+    """Do it all at once; raises InputError when a vehicle is lost meanwhile."""
+    together = asyncio.gather(*work)
+    while True:
+        done, _ = await asyncio.wait({together}, timeout=LOSS_PERIOD_S)
+        if done:
+            return together.result()
+        for sysid, endpoint in swarm.endpoints.items():
+            if reason := endpoint.obituary():
+                together.cancel()
+                raise InputError(f"vehicle {sysid} lost before the flight: {reason}")
 
 
 async def _arm_in_auto(vehicle: VehicleLink) -> None:

@@ -1,18 +1,19 @@
 """What a flight came to: metrics.json and figures, from truth, plan and scenario."""
 
 import contextlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from gcs.figures import draw_all
 from gcs.flight_record import FlightRecord
 from gcs.metrics import Series, measure, shortfalls
 from gcs.run_folder import RunFolder
-from gcs.truth import read_truth, read_truths
+from gcs.truth import Truths, read_truth, read_truths
 from missions.errors import InputError
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from sitl.formation.graph import edges
+from sitl.ticks import TICK_S
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,19 @@ def write_report(run: RunFolder, scenario: Scenario, plan: FormationPlan, record
     for sysid in record.lost:
         with contextlib.suppress(InputError):  # lost before it had recorded anything
             truths[sysid] = read_truth(run.truth / f"{sysid}.f64")
+    record = _timed_by_truth(record, truths)
     metrics, series = measure(scenario, plan, truths, edges(scenario.formation.graph, sysids), record)
     values = metrics.as_json()
     run.write_json("metrics.json", values)
     draw_all(scenario, plan, truths, series, run.figures)
     return Report(values, shortfalls(metrics, scenario), series)
+
+
+def _timed_by_truth(record: FlightRecord, truths: Truths) -> FlightRecord:
+    """The record with the times of losses that the truth tells; the station only noticed later."""
+    lost = {sysid: len(truths[sysid]) * TICK_S if sysid in truths else t_s for sysid, t_s in record.lost.items()}
+    events = [
+        replace(event, t_s=lost[event.sysid]) if event.sysid is not None and event.sysid in lost else event
+        for event in record.events
+    ]
+    return replace(record, lost=lost, events=tuple(events))

@@ -97,10 +97,12 @@ class RunFolder:
     def write_json(self, name: str, values: Any) -> None:
         """Write a JSON file of the run. Raises InputError when it cannot be written."""
         text = json.dumps(values, indent=1, allow_nan=False) + "\n"
+        file = self.path / name
         try:
-            (self.path / name).write_text(text, encoding="utf-8")
+            file.write_text(text, encoding="utf-8")
         except OSError as error:
-            raise _unwritable(self.path / name, error) from None
+            file.unlink(missing_ok=True)  # rather none than half of one
+            raise _unwritable(file, error) from None
 
 
 def make_run_folder(out: Path | None, scenario_name: str) -> RunFolder:

@@ -116,10 +116,7 @@ async def watch_flight(
 
 def _news(status: VehicleStatus, link: VehicleLink, endpoint: Endpoint) -> Iterator[Event]:
     """Bring one vehicle's status up to date; what has happened to it since."""
-    had_arrived = status.arrived
     status.update(link)
     status.lost = endpoint.obituary()
     if status.lost is not None:
         yield Event(status.time_s, status.sysid, f"lost: {status.lost}")
-    elif status.arrived and not had_arrived:
-        yield Event(status.arrived_s, status.sysid, "arrived")

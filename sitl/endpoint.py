@@ -4,6 +4,7 @@ import contextlib
 import math
 import os
 import signal
+import sys
 import threading
 import time
 import traceback
@@ -89,9 +90,12 @@ Report = Ready | Ended | Failed
 def run_endpoint(config: EndpointConfig, reports: Connection) -> None:
     """Run a vehicle until its clock is stopped, it is told to terminate, or the station that started it has gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C hits the whole group; the station stops us
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # until there is a clock to stop
     _end_with_parent()
     try:
         last: Report = _serve(config, reports)
+    except SystemExit:
+        last = Failed(f"vehicle {config.vehicle.sysid}: terminated before it was ready")
     except Exception as error:  # whatever it was, the station is to know why it lost a vehicle
         if not isinstance(error, InputError | OSError | ZError):
             traceback.print_exc()

@@ -35,12 +35,13 @@ def demo(
         from gcs.cli.tables import plan_table
         from gcs.flight import FlightOptions
 
+        arm = chosen_arm(no_corrections, no_neighbours)
         run, loaded, plan = plan_run(scenario, out, seed)
         if not json:
             output.out.print(plan_table(plan))
         options = FlightOptions(
             delay_s=loaded.formation.delay_s if delay is None else delay,
-            arm=chosen_arm(no_corrections, no_neighbours),
+            arm=arm,
             speed=speed or float("inf"),
         )
         fly_and_report(run, loaded, plan, options, json)

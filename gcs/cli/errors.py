@@ -1,5 +1,6 @@
-"""How commands end: exit code 0 all well, 1 flown but something fell short, 2 bad input, 130 interrupted."""
+"""How commands end: 0 all well, 1 flown but something fell short, 2 bad input, 130 interrupted, 143 terminated."""
 
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -7,11 +8,13 @@ from contextlib import contextmanager
 FELL_SHORT = 1
 BAD_INPUT = 2
 INTERRUPTED = 130
+TERMINATED = 143
 
 
 @contextmanager
 def exit_codes() -> Iterator[None]:
     """Turn what a user can mend into one line on standard error and an exit code."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
     from gcs.transfers.errors import TransferError
     from missions.errors import InputError
 

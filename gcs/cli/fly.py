@@ -56,9 +56,12 @@ def fly_and_report(
     from gcs.cli import output
     from gcs.cli.live import LiveTable
     from gcs.cli.tables import flight_table, formation_table
+    from gcs.flight import delay_margin_s
     from gcs.flight import fly as fly_plan
     from gcs.report import write_report
 
+    if options.arm == "full" and options.delay_s >= (margin_s := delay_margin_s(scenario)):
+        output.progress.print(f"The delay of {options.delay_s:g} s is past the formation's margin of {margin_s:.2f} s")
     with LiveTable(output.progress) as live:
         record = asyncio.run(fly_plan(scenario, plan, run, options, live.announce, live.show))
     output.progress.print("Computing figures of merit, drawing")

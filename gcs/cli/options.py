@@ -28,7 +28,9 @@ SeedOption = Annotated[
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, and nothing else there.")]
 DelayOption = Annotated[
     float | None,
-    typer.Option("--delay", metavar="S", min=0.0, callback=_finite, help="Delay of the corrections in seconds."),
+    typer.Option(
+        "--delay", metavar="S", min=0.0, max=60.0, callback=_finite, help="Delay of the corrections in seconds."
+    ),
 ]
 NoCorrectionsOption = Annotated[
     bool, typer.Option("--no-corrections", help="Fly plain autopilots: no schedule, no neighbours.")
@@ -43,7 +45,11 @@ SpeedOption = Annotated[
 
 
 def chosen_arm(no_corrections: bool, no_neighbours: bool) -> "Arm":
-    """How much of the formation law is on."""
+    """How much of the formation law is on. Raises InputError when both options were given."""
+    from missions.errors import InputError
+
+    if no_corrections and no_neighbours:
+        raise InputError("--no-corrections and --no-neighbours: choose one of them")
     if no_corrections:
         return "plain"
     return "own_schedule" if no_neighbours else "full"

@@ -60,7 +60,8 @@ def formation_table(metrics: dict[str, Any]) -> Table:
         ),
         ("arrival spread", f"{_shown(formation['arrival_spread_s'])} s"),
         ("least separation", f"{_shown(formation['min_separation_m'], '.0f')} m"),
-        ("least clearance", f"{_shown(formation['min_clearance_m'], '.0f')} m"),
+        ("least clearance once 30 m up", f"{_shown(formation['min_clearance_m'], '.0f')} m"),
+        ("least clearance above the limit", f"{_shown(formation['clearance_margin_m'], '.0f')} m"),
         ("radar exposure", f"{_shown(formation['radar_exposure_s'], '.0f')} s"),
         ("delay / margin", f"{metrics['delay_s']:g} / {_shown(formation['delay_margin_s'])} s"),
         (

@@ -55,7 +55,7 @@ def draw_scene(plan: FormationPlan, scenario: Scenario, truths: Truths | None, p
             target = (target_x * KM, target_y * KM, target_z)
             axes.scatter(*target, color=colours[sysid], s=38, marker="*", depthshade=False, zorder=6)
         what = "planned" if truths is None else "flown"
-        times = "to scale" if factor == 1 else f"drawn {factor} times"
+        times = "to scale" if factor == 1 else f"exaggerated {factor}x"
         style.headline(figure, f"{scenario.name}: {len(paths)} {what} paths, heights {times}")
         style.legend_beside(figure, style.vehicle_handles(scenario) + style.surroundings_handles(environment))
 

@@ -99,6 +99,7 @@ def measure(
     series = flight_series(common, edges, references, {sysid: end.time_s for sysid, end in arrivals.items()})
     around = [surroundings(positions, scenario) for positions in common.flown_m]
     late = [end.time_s - references[i].duration_s for i, end in arrivals.items() if end.time_s is not None]
+    arrived = [Event(end.time_s, i, "arrived") for i, end in arrivals.items() if end.time_s is not None]
     ends = [end.tick for end in arrivals.values() if end.tick is not None]
     # A vehicle that was lost or stopped leaves a truth that ends where chance had it.
     whole = not record.lost and all(len(truth) > max(ends, default=0) for truth in truths.values())
@@ -113,7 +114,7 @@ def measure(
         ),
         formation=_formation(series, around, late, record),
         timing=record.timing,
-        events=record.events,
+        events=tuple(sorted((*record.events, *arrived), key=lambda event: event.t_s)),
         limits=tuple(
             flight_limits(sysid, truth[airborne_row(truth[:, : H + 1], scenario) or 0 : _rows(arrivals[sysid])])
             for sysid, truth in sorted(truths.items())

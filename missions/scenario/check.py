@@ -1,5 +1,6 @@
 """What no single key can tell of a scenario: whether its parts fit each other."""
 
+import itertools
 import math
 from collections.abc import Iterator
 
@@ -37,9 +38,10 @@ def _places(scenario: Scenario) -> Iterator[str]:
     if any(vehicle.slot is not None for vehicle in scenario.vehicles) and scenario.route is None:
         return
     area, limits = scenario.environment.area, scenario.limits
-    targets = []
+    origins, targets = [], []
     for i, vehicle in enumerate(scenario.vehicles):
         origin, target = scenario.origin_m(vehicle), scenario.target_m(vehicle)
+        origins.append(origin)
         targets.append(target)
         for key, (x, y, z) in (("origin", origin), ("target", target)):
             here = f"vehicles[{i}].{key}: ({x:.0f}, {y:.0f}, {z:.0f})"
@@ -65,10 +67,11 @@ def _places(scenario: Scenario) -> Iterator[str]:
             )
         if math.dist(origin[:2], target[:2]) < limits.leg_min_m:
             yield f"vehicles[{i}].target: closer to the origin than limits.leg_min_m = {limits.leg_min_m:g}"
-    for i in range(len(targets)):
-        for j in range(i):
-            if (distance := math.dist(targets[i], targets[j])) < limits.separation_m:
+    for key, places, together in (("origin", origins, "start"), ("target", targets, "arrive")):
+        for i, j in itertools.combinations(range(len(places)), 2):
+            if (distance := math.dist(places[i], places[j])) < limits.separation_m:
+                named = "slot" if scenario.vehicles[j].slot else key
                 yield (
-                    f"vehicles[{i}].target: {distance:.0f} m from vehicles[{j}]'s, and both arrive together; "
+                    f"vehicles[{j}].{named}: {distance:.0f} m from vehicles[{i}]'s, and both {together} together; "
                     f"keep limits.separation_m = {limits.separation_m:g}"
                 )

@@ -55,7 +55,7 @@ def read_scenario_text(name_or_file: str) -> tuple[str, str]:
         return (resources.files("missions") / "scenarios" / label).read_text(encoding="utf-8"), label
     path = Path(name_or_file)
     try:
-        return path.read_text(encoding="utf-8"), path.name
+        return path.read_text(encoding="utf-8-sig"), path.name
     except UnicodeDecodeError:
         raise InputError(f"{path}: not UTF-8 text; a scenario is a TOML file") from None
     except FileNotFoundError:
@@ -82,7 +82,8 @@ def parse_scenario(text: str, label: str) -> Scenario:
     try:
         scenario = Scenario.model_validate(data)
     except ValidationError as error:
-        details = error.errors()
+        # What is unknown first: it is often why something else is missing.
+        details = sorted(error.errors(), key=lambda detail: detail["type"] != "extra_forbidden")
         raise InputError(_first(label, [_describe(detail) for detail in details])) from None
     if found := list(problems(scenario)):
         raise InputError(_first(label, found))

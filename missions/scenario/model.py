@@ -174,7 +174,7 @@ class FormationModel(Keys):
     """Who hears whom, with what delay, and the gains of the law (15)."""
 
     graph: Literal["ring", "line", "star", "complete"] = "ring"
-    delay_s: NotNegative = 0.2
+    delay_s: Annotated[NotNegative, Field(le=60)] = 0.2
     k1: NotNegative = 0.2
     k2: NotNegative = 0.8
     k3: NotNegative = 0.4

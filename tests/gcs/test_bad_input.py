@@ -78,3 +78,8 @@ def test_more_vehicles_than_there_are() -> None:
 
 def test_an_unknown_method(tmp_path: Path) -> None:
     assert "pso" in complaint("plan", "radars", "--method", "magic", "--out", tmp_path / "run")
+
+
+def test_both_comparisons_at_once(tmp_path: Path) -> None:
+    line = complaint("demo", "vee", "--no-corrections", "--no-neighbours", "--out", tmp_path / "run")
+    assert "choose one of them" in line

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from pymavlink import mavutil
 
-from gcs.flight_record import Event, FlightRecord, Timing
+from gcs.flight_record import FlightRecord, Timing
 from gcs.metrics import measure
 from gcs.run_folder import RunFolder
 from gcs.truth import read_truths
@@ -116,7 +116,7 @@ def test_what_concerns_the_flight_can_be_recomputed_from_truth_and_plan(flown: F
             items_uploaded={},
             items_verified={},
             timing=Timing(**metrics["timing"]),
-            events=tuple(Event(**event) for event in metrics["events"]),
+            events=(),
             lost={},
             late_samples=0,
             lost_samples=0,
@@ -125,6 +125,7 @@ def test_what_concerns_the_flight_can_be_recomputed_from_truth_and_plan(flown: F
     )
     recomputed = again.as_json()
     assert recomputed["formation"] == metrics["formation"]
+    assert recomputed["events"] == metrics["events"]
     assert recomputed["trajectory_sha256"] == metrics["trajectory_sha256"]
     for mine, theirs in zip(recomputed["vehicles"], metrics["vehicles"], strict=True):
         kept = VEHICLE_KEYS - {"items_uploaded", "items_verified"}
@@ -201,6 +202,7 @@ def test_a_vehicle_killed_in_flight_is_named_and_the_others_finish(slow_flight: 
     metrics = json.loads(out)
     assert [vehicle["completed"] for vehicle in metrics["vehicles"]] == [True, False, True]
     assert metrics["trajectory_sha256"] is None
+    assert [event["what"] for event in metrics["events"]].count("arrived") == 2
     (lost,) = [event for event in metrics["events"] if "lost" in event["what"]]
     assert lost["sysid"] == vehicles[1]["sysid"]
     assert "SIGKILL" in lost["what"]
@@ -213,6 +215,14 @@ def test_ctrl_c_ends_everything_with_130(slow_flight: Slow) -> None:
     _, err = process.communicate(timeout=30)
     assert process.returncode == 130
     assert "interrupted" in err
+    assert "Traceback" not in err
+
+
+def test_sigterm_ends_everything_with_143(slow_flight: Slow) -> None:
+    process, _, _ = slow_flight
+    process.terminate()
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 143
     assert "Traceback" not in err
 
 

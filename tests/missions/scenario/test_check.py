@@ -35,6 +35,13 @@ TEXT = {name: read_scenario_text(name)[0] for name in ("mountains", "radars", "v
             "target = [25000.0, 24100.0, 2500.0]",
             r"vehicles\[5\]\.target: 100 m from vehicles\[3\]'s",
         ),
+        (
+            "radars",
+            "origin = [0.0, 14000.0, 0.0]",
+            "origin = [0.0, 12050.0, 0.0]",
+            r"vehicles\[3\]\.origin: 50 m from vehicles\[1\]'s, and both start together",
+        ),
+        ("vee", "behind_m = 106.07, left_m = 106.07", "behind_m = 20.0, left_m = 20.0", r"vehicles\[1\]\.slot: 28 m"),
         ("radars", "origin = [0.0, 10000.0, 0.0]\n", "", r"vehicles\[0\]: needs origin and target, or a slot"),
         ("vee", "[route]", "[other]", r"other: unknown key"),
         (

@@ -41,6 +41,8 @@ def test_three_scenarios_ship_with_nine_vehicles_each() -> None:
         ),
         ("x_m = [0.0, 40000.0]", "x_m = [9.0, 1.0]", "area: the first number of x_m must be smaller"),
         ("target = [33000.0", "target = [93000.0", "vehicles[0].target: (93000, 24500, 3300) lies outside the area"),
+        ("radius_m = 1500.0", "radious_m = 1500.0", "radars[0].radious_m: unknown key; did you mean radius_m?"),
+        ("delay_s = 0.2", "delay_s = 1e9", "formation.delay_s: must be <= 60"),
         ("seed = 1", "seed = 1.5", "seed: must be a whole number, got 1.5"),
     ],
 )
@@ -74,3 +76,9 @@ def test_a_missing_file_names_what_ships() -> None:
 def test_a_folder_is_no_scenario(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"directory"):
         load_scenario(str(tmp_path))
+
+
+def test_a_byte_order_mark_does_no_harm(tmp_path: Path) -> None:
+    file = tmp_path / "bom.toml"
+    file.write_bytes(b"\xef\xbb\xbf" + RADARS.encode())
+    assert load_scenario(str(file)).name == "radars"
