@@ -4,14 +4,12 @@ import contextlib
 import math
 import os
 import signal
-import sys
 import threading
 import time
 import traceback
 from collections.abc import Iterator
 from dataclasses import dataclass
-from multiprocessing import parent_process
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 from zenoh import ZError
@@ -19,6 +17,7 @@ from zenoh import ZError
 from missions.errors import InputError
 from sitl.clock import Clock, serve_clock
 from sitl.config import VehicleConfig
+from sitl.ending import Ending
 from sitl.events import StatusText
 from sitl.formation.exchange import Exchange
 from sitl.parameters import arduplane_parameters
@@ -30,8 +29,6 @@ from sitl.vehicle import Vehicle
 from sitl.zenoh_session import Peer, alive_key, discard_sockets, open_session
 
 NEIGHBOURS_TIMEOUT_S = 30.0
-LAST_WORDS_S = 2.0
-"""To end in good order when the station has gone."""
 SEVERITY_WARNING = 4
 """MAV_SEVERITY_WARNING."""
 
@@ -90,12 +87,14 @@ Report = Ready | Ended | Failed
 def run_endpoint(config: EndpointConfig, reports: Connection) -> None:
     """Run a vehicle until its clock is stopped, it is told to terminate, or the station that started it has gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C hits the whole group; the station stops us
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # until there is a clock to stop
-    _end_with_parent()
+
+    def end_at_once() -> None:
+        discard_sockets(config.peer)
+        os._exit(1)
+
+    ending = Ending(end_at_once)
     try:
-        last: Report = _serve(config, reports)
-    except SystemExit:
-        last = Failed(f"vehicle {config.vehicle.sysid}: terminated before it was ready")
+        last: Report = _serve(config, reports, ending)
     except Exception as error:  # whatever it was, the station is to know why it lost a vehicle
         if not isinstance(error, InputError | OSError | ZError):
             traceback.print_exc()
@@ -105,7 +104,7 @@ def run_endpoint(config: EndpointConfig, reports: Connection) -> None:
         reports.send(last)
 
 
-def _serve(config: EndpointConfig, reports: Connection) -> Ended:
+def _serve(config: EndpointConfig, reports: Connection, ending: Ending) -> Ended:
     """Open everything, fly, close everything."""
     sysid = config.vehicle.sysid
     truth = TruthWriter(config.truth)
@@ -120,7 +119,7 @@ def _serve(config: EndpointConfig, reports: Connection) -> Ended:
         links.attach(face)
         exchange = Exchange(session, config.swarm, sysid, config.vehicle.weights)
         clock = Clock(held=config.held, speed=config.speed, on_stop=exchange.stop)
-        signal.signal(signal.SIGTERM, lambda *_: threading.Thread(target=clock.stop).start())
+        ending.stop = clock.stop
         serve_clock(session, config.swarm, sysid, clock)
         alive = session.liveliness().declare_token(alive_key(config.swarm, sysid))
         if missing := exchange.wait_for_neighbours(NEIGHBOURS_TIMEOUT_S):
@@ -177,18 +176,3 @@ def _fly(vehicle: Vehicle, face: MavlinkFace, exchange: Exchange, clock: Clock, 
             vehicle.advance(heard)
             if face.wants(vehicle.tick * TICK_S):
                 face.on_simulated_tick(vehicle.snapshot())
-
-
-def _end_with_parent() -> None:
-    """End this process when the station that started it has gone: in good order, or else by force."""
-    parent = parent_process()
-    if parent is None:
-        return
-
-    def watch() -> None:
-        wait([parent.sentinel])
-        os.kill(os.getpid(), signal.SIGTERM)  # to the process: raised in this thread, it would not wake the main one
-        time.sleep(LAST_WORDS_S)
-        os.kill(os.getpid(), signal.SIGKILL)
-
-    threading.Thread(target=watch, daemon=True, name="parent").start()
