@@ -25,7 +25,6 @@ class VehicleLink:
     Attributes:
         latest: the newest message of each type.
         heard_at_s: when it was last heard, `time.monotonic` seconds.
-        heartbeat_at_s: when its last HEARTBEAT came.
         simulated_ms: its newest time_boot_ms.
         lost_frames: frames missing from its sequence numbers.
         texts: its STATUSTEXT lines, oldest first.
@@ -45,7 +44,6 @@ class VehicleLink:
         self.peer = peer
         self.latest: dict[str, Message] = {}
         self.heard_at_s = time.monotonic()
-        self.heartbeat_at_s = self.heard_at_s
         self.simulated_ms = 0
         self.lost_frames = 0
         self.texts: list[str] = []
@@ -84,9 +82,7 @@ class VehicleLink:
         """Take one message from the vehicle."""
         self.heard_at_s = time.monotonic()
         kind = message.get_type()
-        if kind == "HEARTBEAT":
-            self.heartbeat_at_s = self.heard_at_s
-        elif kind == "STATUSTEXT":
+        if kind == "STATUSTEXT":
             self.texts.extend(self._status_lines.feed(message))
         self.simulated_ms = max(self.simulated_ms, getattr(message, "time_boot_ms", 0))
         self._count_lost(message.get_seq())

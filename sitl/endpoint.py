@@ -68,7 +68,7 @@ class Ready:
 
 @dataclass(frozen=True)
 class Ended:
-    """Last report of an endpoint: it has stopped as told; samples it had to do without."""
+    """Last report of an endpoint whose clock was stopped: at which tick, and how many messages were no samples."""
 
     tick: int
     rejected_samples: int

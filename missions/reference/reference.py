@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from missions.airframe import GRAVITY_M_S2, Airframe
-from missions.commands import Command, Frame
+from missions.commands import NAVIGATION, Command, Frame
 from missions.errors import InputError
 from missions.frame import LocalFrame
 from missions.mission import Mission, MissionItem
@@ -150,7 +150,7 @@ def build_reference(
             elif item.param1 == 1 or (item.param1 == 0 and _flyable(item.param2, airframe)):
                 speed = Speed(item.param2, over_ground=item.param1 == 1)
             continue
-        if item.command not in (Command.NAV_WAYPOINT, Command.NAV_LOITER_UNLIM):
+        if item.command not in NAVIGATION:
             continue
         position = _position(item, mission, frame)
         if item.lat_e7 == 0 and item.lon_e7 == 0:
