@@ -14,28 +14,33 @@ _ground_height_m = compile_shared(ground_height_m)
 @jit
 def leg_clearance_m(
     p: Any, q: Any, s0_m: float, s1_m: float, terrain: Any, clearance_m: float, climb_out_m: float
-) -> tuple[float, float]:
+) -> tuple[float, float, float, float]:
     """Least clearance r_k of the leg from p to q, equation (6), and the largest shortfall of the wanted clearance.
 
     Args:
         s0_m, s1_m: length of the path before p and before q; the wanted clearance grows with it, from 0 at the
             origin to `clearance_m` at `climb_out_m`.
 
-    Both in metres; the shortfall is negative where there is more than wanted.
+    Returns:
+        r_k in metres and the part of the leg after which it is reached; the same of the shortfall, which is negative
+        where there is more than wanted.
     """
     steps = _steps(p, q, terrain)
     if s0_m < climb_out_m:  # the ramp's end is a corner of what is wanted, which curvature knows nothing of
         steps = max(steps, int((s1_m - s0_m) / 100.0) + 1)
     least = math.inf
     shortfall = -math.inf
+    lowest = shortest = 0.0
     for i in range(steps + 1):
         t = i / steps
         x, y, z = p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])
         clearance = z - _ground_height_m(x, y, terrain)
         wanted = clearance_m * min(1.0, (s0_m + t * (s1_m - s0_m)) / climb_out_m)
-        least = min(least, clearance)
-        shortfall = max(shortfall, wanted - clearance)
-    return least, shortfall
+        if clearance < least:
+            least, lowest = clearance, t
+        if wanted - clearance > shortfall:
+            shortfall, shortest = wanted - clearance, t
+    return least, lowest, shortfall, shortest
 
 
 @jit
