@@ -53,6 +53,12 @@ def _evaluate(
     base_m: Any,
     wave: Any,
     peaks: Any,
+    posts: Any,
+    x0_m: Any,
+    y0_m: Any,
+    spacing_x_m: Any,
+    spacing_y_m: Any,
+    tops: Any,
     radars: Any,
     obstacles: Any,
     others: Any,
@@ -64,7 +70,7 @@ def _evaluate(
 ) -> None:
     """`evaluate` on single arguments: a parallel loop takes no tuple in a tuple, so it puts the problem together."""
     for i in prange(len(interiors)):
-        terrain = Terrain(base_m, wave, peaks)
+        terrain = Terrain(base_m, wave, peaks, posts, x0_m, y0_m, spacing_x_m, spacing_y_m, tops)
         problem = PathProblem(origin_m, target_m, terrain, radars, obstacles, others, separations_m, bounds)
         corners = np.empty((interiors.shape[1] // 3 + 2, 3))
         corners[0] = problem.origin_m
@@ -77,7 +83,7 @@ def _evaluate(
 @jit
 def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
     """f of one path (3); fills in its five terms."""
-    bounds = problem.bounds
+    bounds, terrain = problem.bounds, problem.terrain
     legs = len(corners) - 1
     arcs = np.empty(legs)
     broken, excess = broken_limits(corners, bounds, arcs)
@@ -94,7 +100,7 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
         length += math.sqrt(dx * dx + dy * dy + dz * dz)
 
         least, shortfall = leg_clearance_m(
-            p, q, passed[k], passed[k + 1], problem.terrain, bounds.clearance_m, bounds.climb_out_m
+            p, q, passed[k], passed[k + 1], terrain, bounds.clearance_m, bounds.climb_out_m
         )
         least_sum += least
         if least < -TOUCH_M:

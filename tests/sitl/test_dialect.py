@@ -7,6 +7,7 @@ from types import ModuleType
 import pytest
 
 import missions.airframe
+import missions.environment.raster
 import missions.environment.terrain
 import missions.reference.path
 import missions.reference.smoothing
@@ -22,7 +23,14 @@ import sitl.guidance.path_law
 
 SHARED: dict[ModuleType, tuple[str, ...]] = {
     missions.airframe: ("dynamic_pressure_area", "drag_n", "thrust_max_n", "lift_max_n"),
-    missions.environment.terrain: ("datum_wave_m", "ground_height_m"),
+    missions.environment.raster: ("cell_and_share", "raster_height_and_slope"),
+    missions.environment.terrain: (
+        "datum_wave_m",
+        "datum_wave_slope",
+        "analytic_height_m",
+        "ground_height_m",
+        "ground_height_and_slope",
+    ),
     missions.reference.path: ("path_at",),
     missions.reference.smoothing: ("quadratic_at",),
     sitl.aircraft.actuators: ("lagged",),
