@@ -95,6 +95,12 @@ def find_path(
     return PathFound(problem, problem.corners_m(result.best), result.cost, result.evaluations, result.history)
 
 
+def problem_alone(scenario: Scenario, vehicle: VehicleModel) -> PathProblem:
+    """The problem of a vehicle with nobody else in the air."""
+    nobody = np.empty((0, scenario.search.waypoints + 2, 4))
+    return path_problem(scenario, vehicle, nobody, _expected_ground_speed_m_s(scenario, vehicle), PLANNING_MARGINS)
+
+
 def require_feasible(name: str, path: PathFound, attempts: int) -> None:
     """Raise InputError, with what stands in the way, when no search found a feasible path."""
     if path.feasible:

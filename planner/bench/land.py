@@ -4,6 +4,9 @@ rounds alike."""
 import numpy as np
 import numpy.typing as npt
 
+from missions.environment import Terrain
+from missions.environment.terrain import NO_WAVE
+
 FloatArray = npt.NDArray[np.float64]
 
 SPACING_M = 200.0
@@ -44,6 +47,16 @@ def smooth_step(x: FloatArray) -> FloatArray:
     """From 0 at 0 to 1 at 1, level at both."""
     x = np.clip(x, 0.0, 1.0)
     return x * x * (3.0 - 2.0 * x)
+
+
+def raster_terrain(heights_m: FloatArray) -> Terrain:
+    """Ground with its posts at these heights, to the decimetre."""
+    return Terrain(0.0, NO_WAVE, (), np.round(heights_m, 1), spacing_x_m=SPACING_M, spacing_y_m=SPACING_M)
+
+
+def flat_terrain() -> Terrain:
+    """Level ground at 0."""
+    return Terrain(0.0, NO_WAVE, ())
 
 
 def _octave(rng: np.random.Generator, x: FloatArray, y: FloatArray) -> FloatArray:
