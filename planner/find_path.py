@@ -73,13 +73,7 @@ def find_path(
     """
     settings = scenario.search
     others = [with_progress(path.corners_m, path.problem) for path in earlier]
-    problem = path_problem(
-        scenario,
-        vehicle,
-        np.array(others, dtype=np.float64).reshape(-1, settings.waypoints + 2, 4),
-        _expected_ground_speed_m_s(scenario, vehicle),
-        PLANNING_MARGINS,
-    )
+    problem = vehicle_problem(scenario, vehicle, others)
     rng = np.random.default_rng(np.random.SeedSequence([seed, SEARCH_STREAM, vehicle.sysid, attempt]))
     reading: Reading = settings.reading
     low, high = box(problem)
@@ -95,10 +89,19 @@ def find_path(
     return PathFound(problem, problem.corners_m(result.best), result.cost, result.evaluations, result.history)
 
 
-def problem_alone(scenario: Scenario, vehicle: VehicleModel) -> PathProblem:
-    """The problem of a vehicle with nobody else in the air."""
-    nobody = np.empty((0, scenario.search.waypoints + 2, 4))
-    return path_problem(scenario, vehicle, nobody, _expected_ground_speed_m_s(scenario, vehicle), PLANNING_MARGINS)
+def vehicle_problem(scenario: Scenario, vehicle: VehicleModel, others: Sequence[FloatArray] = ()) -> PathProblem:
+    """What a search for a vehicle's path is given.
+
+    Args:
+        others: the paths of the UAVs that go before, from `with_progress`; nobody else in the air unless given.
+    """
+    return path_problem(
+        scenario,
+        vehicle,
+        np.array(others, dtype=np.float64).reshape(-1, scenario.search.waypoints + 2, 4),
+        _expected_ground_speed_m_s(scenario, vehicle),
+        PLANNING_MARGINS,
+    )
 
 
 def require_feasible(name: str, path: PathFound, attempts: int) -> None:

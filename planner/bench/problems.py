@@ -21,7 +21,7 @@ from planner.bench.draft import problem_of
 from planner.bench.families import FAMILIES
 from planner.cost.kernel import INFEASIBLE_KM, evaluate
 from planner.cost.problem import PathProblem
-from planner.find_path import problem_alone
+from planner.find_path import vehicle_problem
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -102,7 +102,7 @@ def bench_problem(name: str) -> BenchProblem:
         for vehicle in scenario.vehicles:
             if vehicle.name == vehicle_name:
                 waypoints = scenario.search.waypoints
-                problem = problem_alone(scenario, vehicle)
+                problem = vehicle_problem(scenario, vehicle)
                 return BenchProblem(name, PAPER, problem, waypoints, problem_digest(problem, waypoints), None)
     match = re.fullmatch(r"([a-z]+)-([1-9]\d*)-([1-9]\d*)", name)
     if match and match[1] in FAMILIES:
