@@ -73,13 +73,7 @@ def find_path(
     """
     settings = scenario.search
     others = [with_progress(path.corners_m, path.problem) for path in earlier]
-    problem = path_problem(
-        scenario,
-        vehicle,
-        np.array(others, dtype=np.float64).reshape(-1, settings.waypoints + 2, 4),
-        _expected_ground_speed_m_s(scenario, vehicle),
-        PLANNING_MARGINS,
-    )
+    problem = vehicle_problem(scenario, vehicle, others)
     rng = np.random.default_rng(np.random.SeedSequence([seed, SEARCH_STREAM, vehicle.sysid, attempt]))
     reading: Reading = settings.reading
     low, high = box(problem)
@@ -93,6 +87,21 @@ def find_path(
         report=report,
     )
     return PathFound(problem, problem.corners_m(result.best), result.cost, result.evaluations, result.history)
+
+
+def vehicle_problem(scenario: Scenario, vehicle: VehicleModel, others: Sequence[FloatArray] = ()) -> PathProblem:
+    """What a search for a vehicle's path is given.
+
+    Args:
+        others: the paths of the UAVs that go before, from `with_progress`; nobody else in the air unless given.
+    """
+    return path_problem(
+        scenario,
+        vehicle,
+        np.array(others, dtype=np.float64).reshape(-1, scenario.search.waypoints + 2, 4),
+        _expected_ground_speed_m_s(scenario, vehicle),
+        PLANNING_MARGINS,
+    )
 
 
 def require_feasible(name: str, path: PathFound, attempts: int) -> None:

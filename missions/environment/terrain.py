@@ -94,19 +94,30 @@ def datum_wave_slope(
 
 
 def ground_height_m(x_m: float, y_m: float, terrain: Terrain) -> float:
-    """Height of the ground above the datum at one point, metres (equation (2))."""
+    """Height of the ground above the datum at one point, metres."""
     if len(terrain.posts) > 0:
         return raster_height_and_slope(x_m, y_m, terrain)[0]
-    height = terrain.base_m
-    for i in range(len(terrain.peaks)):
-        peak = terrain.peaks[i]
+    return analytic_height_m(x_m, y_m, terrain.base_m, terrain.wave, terrain.peaks)
+
+
+def analytic_height_m(
+    x_m: float,
+    y_m: float,
+    base_m: float,
+    wave: tuple[float, float, float, float, float, float, float, float],
+    peaks: Any,
+) -> float:
+    """The same where there is no raster (equation (2)), of the fields of a terrain."""
+    height = base_m
+    for i in range(len(peaks)):
+        peak = peaks[i]
         u = (x_m - peak[1]) / peak[3]
         v = (y_m - peak[2]) / peak[4]
         exponent = u * u + v * v
         if exponent < 25.0:  # beyond, a peak of 1 km adds less than 2e-8 m
             height += peak[0] * math.exp(-exponent)
-    if terrain.wave[0] != 0.0:
-        height = max(height, datum_wave_m(x_m, y_m, terrain.wave))
+    if wave[0] != 0.0:
+        height = max(height, datum_wave_m(x_m, y_m, wave))
     return height
 
 

@@ -83,7 +83,7 @@ def _evaluate(
 @jit
 def path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
     """f of one path of (n + 1, 3) corners (3), kilometres; fills in its five terms."""
-    bounds = problem.bounds
+    bounds, terrain = problem.bounds, problem.terrain
     legs = len(corners) - 1
     arcs = np.empty(legs)
     broken, excess = broken_limits(corners, bounds, arcs)
@@ -100,7 +100,7 @@ def path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
         length += math.sqrt(dx * dx + dy * dy + dz * dz)
 
         least, _, shortfall, _ = leg_clearance_m(
-            p, q, passed[k], passed[k + 1], problem.terrain, bounds.clearance_m, bounds.climb_out_m
+            p, q, passed[k], passed[k + 1], terrain, bounds.clearance_m, bounds.climb_out_m
         )
         least_sum += least
         if least < -TOUCH_M:

@@ -1,14 +1,19 @@
-"""How high a leg passes above the ground: samples so close that no dip between two of them is deeper than `DIP_M`."""
+"""How high a leg passes above the ground.
+
+Exactly, above a raster; above peaks and waves by samples so close that no dip between two of them is deeper than
+`DIP_M`.
+"""
 
 import math
 from typing import Any
 
-from missions.environment.terrain import ground_height_m
+from missions.environment.terrain import analytic_height_m
 from planner.compiled import compile_shared, jit
+from planner.cost.raster import least_height_above_raster_m
 
 DIP_M = 5.0
 
-_ground_height_m = compile_shared(ground_height_m)
+_analytic_height_m = compile_shared(analytic_height_m)
 
 
 @jit
@@ -25,7 +30,10 @@ def leg_clearance_m(
         r_k in metres and the part of the leg after which it is reached; the same of the shortfall, which is negative
         where there is more than wanted.
     """
-    steps = _steps(p, q, terrain)
+    if len(terrain.posts) > 0:
+        return _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
+    base_m, wave, peaks = terrain.base_m, terrain.wave, terrain.peaks
+    steps = _steps(p, q, wave, peaks)
     if s0_m < climb_out_m:  # the ramp's end is a corner of what is wanted, which curvature knows nothing of
         steps = max(steps, int((s1_m - s0_m) / 100.0) + 1)
     least = math.inf
@@ -34,7 +42,7 @@ def leg_clearance_m(
     for i in range(steps + 1):
         t = i / steps
         x, y, z = p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])
-        clearance = z - _ground_height_m(x, y, terrain)
+        clearance = z - _analytic_height_m(x, y, base_m, wave, peaks)
         wanted = clearance_m * min(1.0, (s0_m + t * (s1_m - s0_m)) / climb_out_m)
         if clearance < least:
             least, lowest = clearance, t
@@ -44,7 +52,29 @@ def leg_clearance_m(
 
 
 @jit
-def _steps(p: Any, q: Any, terrain: Any) -> int:
+def _above_raster_m(
+    p: Any, q: Any, s0_m: float, s1_m: float, terrain: Any, clearance_m: float, climb_out_m: float
+) -> tuple[float, float]:
+    """`leg_clearance_m` above a raster.
+
+    On the ramp the height above what is wanted there is that of a line lowered by it.
+    """
+    z0, z1 = p[2], q[2]
+    if s0_m >= climb_out_m:
+        least = least_height_above_raster_m(p, q, z0, z1, 0.0, 1.0, terrain)
+        return least, clearance_m - least
+    ramp_end = min(1.0, (climb_out_m - s0_m) / (s1_m - s0_m))
+    wanted0, wanted1 = clearance_m * s0_m / climb_out_m, clearance_m * s1_m / climb_out_m
+    least = least_height_above_raster_m(p, q, z0, z1, 0.0, ramp_end, terrain)
+    shortfall = -least_height_above_raster_m(p, q, z0 - wanted0, z1 - wanted1, 0.0, ramp_end, terrain)
+    if ramp_end < 1.0:
+        beyond = least_height_above_raster_m(p, q, z0, z1, ramp_end, 1.0, terrain)
+        least, shortfall = min(least, beyond), max(shortfall, clearance_m - beyond)
+    return least, shortfall
+
+
+@jit
+def _steps(p: Any, q: Any, wave: Any, peaks: Any) -> int:
     """Into how many steps to cut a leg.
 
     Between two samples h apart a function dips by at most M h^2 / 8 below them, where M bounds its second derivative;
@@ -52,8 +82,8 @@ def _steps(p: Any, q: Any, terrain: Any) -> int:
     """
     bend = 0.0
     dx, dy = q[0] - p[0], q[1] - p[1]
-    for i in range(len(terrain.peaks)):
-        peak = terrain.peaks[i]
+    for i in range(len(peaks)):
+        peak = peaks[i]
         u, v = (p[0] - peak[1]) / peak[3], (p[1] - peak[2]) / peak[4]
         du, dv = dx / peak[3], dy / peak[4]
         speed2 = du * du + dv * dv
@@ -70,7 +100,7 @@ def _steps(p: Any, q: Any, terrain: Any) -> int:
             rim = max(1.0, exponent)
             bend -= 4.0 * speed2 * peak[0] * rim * math.exp(-rim)
     steps = math.sqrt(bend / (8.0 * DIP_M))
-    amplitude_m, _, b, c, d, e, f, g = terrain.wave
+    amplitude_m, _, b, c, d, e, f, g = wave
     if amplitude_m != 0.0:
         slope_km = abs(amplitude_m) * (1.0 + abs(b) + abs(c * d) + abs(e) + f * f + abs(g))
         rise_m = slope_km * math.hypot(dx, dy) / 1000.0 + abs(q[2] - p[2])

@@ -27,6 +27,7 @@ SHARED: dict[ModuleType, tuple[str, ...]] = {
     missions.environment.terrain: (
         "datum_wave_m",
         "datum_wave_slope",
+        "analytic_height_m",
         "ground_height_m",
         "ground_height_and_slope",
     ),

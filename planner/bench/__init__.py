@@ -1,0 +1,1 @@
+"""Fair comparisons of searches: problems, best-known values, runs at equal budgets, statistics."""

@@ -1,0 +1,86 @@
+"""Many jobs through an executor of this machine's processes or a cluster's. A job that dies is named, the others go
+on."""
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from typing import Protocol
+
+from planner.bench.job import Job, Run, run_job
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A job that gave no result, and why."""
+
+    job: Job
+    reason: str
+
+
+class Workers(Protocol):
+    """Where jobs run."""
+
+    @property
+    def at_once(self) -> int:
+        """Jobs to have under way."""
+        ...
+
+    def opened(self, at_once: int) -> AbstractContextManager[Executor]:
+        """A new executor of the concurrent.futures interface; nothing of it is left after the block, even if the block
+        ends early."""
+        ...
+
+
+def run_jobs(
+    jobs: Sequence[Job],
+    workers: Workers,
+    done: Callable[[Run | Failure], None],
+    run: Callable[[Job], Run] = run_job,
+) -> None:
+    """Run jobs, telling of each as it ends, in whatever order.
+
+    A process that dies takes its executor with it, and nobody says which job it was. So those under way are run again,
+    each alone, and which then dies again is to blame.
+    """
+    waiting, suspects = deque(jobs), deque[Job]()
+    while suspects or waiting:
+        queue, at_once = (suspects, 1) if suspects else (waiting, workers.at_once)
+        broken = _until_broken(queue, workers, at_once, done, run)
+        if len(broken) == 1:
+            done(Failure(broken[0], "its process died"))
+        else:
+            suspects.extend(broken)
+
+
+def _until_broken(
+    queue: deque[Job],
+    workers: Workers,
+    at_once: int,
+    done: Callable[[Run | Failure], None],
+    run: Callable[[Job], Run],
+) -> list[Job]:
+    """Run jobs from a queue in one executor until it is empty or the executor breaks; returns those then under way."""
+    under_way: dict[Future[Run], Job] = {}
+    broken: list[Job] = []
+    with workers.opened(at_once) as executor:
+        while (queue or under_way) and not broken:
+            while queue and len(under_way) < at_once:
+                job = queue.popleft()
+                try:
+                    under_way[executor.submit(run, job)] = job
+                except BrokenExecutor:
+                    broken.append(job)
+                    break
+            finished, _ = wait(under_way, return_when=FIRST_COMPLETED)
+            for future in finished:
+                job = under_way.pop(future)
+                error = future.exception()
+                if isinstance(error, BrokenExecutor):
+                    broken.append(job)
+                elif error is not None:
+                    done(Failure(job, f"{type(error).__name__}: {error}"))
+                else:
+                    done(future.result())
+    return [*broken, *under_way.values()] if broken else []

@@ -1,0 +1,114 @@
+"""How high a leg passes above a raster of heights, exactly.
+
+Inside a cell the ground is bilinear, so along a straight line it is a quadratic, and so is the height above it: its
+least value is at an end or at its vertex. Whole blocks of cells whose highest post lies too low to matter are passed
+over.
+"""
+
+import math
+from typing import Any
+
+from missions.environment.raster import BLOCK_CELLS
+from planner.compiled import jit
+
+
+@jit
+def least_height_above_raster_m(p: Any, q: Any, z0_m: float, z1_m: float, t0: float, t1: float, terrain: Any) -> float:
+    """Least height above the ground on the part of a line from t0 to t1, metres.
+
+    Args:
+        p, q: the line's ends in plan, at t = 0 and t = 1.
+        z0_m, z1_m: its heights there.
+        t0, t1: the part that counts, 0 <= t0 <= t1 <= 1.
+        terrain: with posts.
+    """
+    rows, columns = terrain.tops.shape
+    across = 1.0 / (BLOCK_CELLS * terrain.spacing_x_m), 1.0 / (BLOCK_CELLS * terrain.spacing_y_m)
+    u, v = (p[0] - terrain.x0_m) * across[0], (p[1] - terrain.y0_m) * across[1]
+    du, dv, dz = (q[0] - p[0]) * across[0], (q[1] - p[1]) * across[1], z1_m - z0_m
+    i, j = _cell(u + t0 * du, 0, columns - 1), _cell(v + t0 * dv, 0, rows - 1)
+    out_u, out_v = _way_out(u, du, i, 0, columns - 1), _way_out(v, dv, j, 0, rows - 1)
+    least = math.inf
+    start = t0
+    while True:
+        end = max(start, _first(out_u, out_v, t1))
+        if z0_m + (start if dz > 0.0 else end) * dz - terrain.tops[j, i] < least:
+            line = u * BLOCK_CELLS, v * BLOCK_CELLS, z0_m, du * BLOCK_CELLS, dv * BLOCK_CELLS, dz
+            least = min(least, _least_over_cells_m(line, start, end, terrain.posts))
+        if end >= t1:
+            return least
+        if out_u <= out_v:
+            i += 1 if du > 0.0 else -1
+            out_u = _way_out(u, du, i, 0, columns - 1)
+        else:
+            j += 1 if dv > 0.0 else -1
+            out_v = _way_out(v, dv, j, 0, rows - 1)
+        start = end
+
+
+@jit
+def _least_over_cells_m(line: Any, t0: float, t1: float, posts: Any) -> float:
+    """The same, cell by cell, of a line (u, v, z) + t (du, dv, dz), u and v in cells.
+
+    The level ground beyond the outermost posts is cells -1 and n - 1, whose two sides are the same posts.
+    """
+    u, v, z, du, dv, dz = line
+    last_i, last_j = posts.shape[1] - 1, posts.shape[0] - 1
+    i, j = _cell(u + t0 * du, -1, last_i), _cell(v + t0 * dv, -1, last_j)
+    out_u, out_v = _way_out(u, du, i, -1, last_i), _way_out(v, dv, j, -1, last_j)
+    least = math.inf
+    start = t0
+    while True:
+        end = max(start, _first(out_u, out_v, t1))
+        west, east, south, north = max(i, 0), min(i + 1, last_i), max(j, 0), min(j + 1, last_j)
+        corner = posts[south, west]
+        slope_u, slope_v = posts[south, east] - corner, posts[north, west] - corner
+        twist = posts[north, east] - corner - slope_u - slope_v
+        a, b = u + start * du - i, v + start * dv - j
+        height = z + start * dz - (corner + slope_u * a + slope_v * b + twist * a * b)
+        rate = dz - slope_u * du - slope_v * dv - twist * (a * dv + b * du)
+        bend = -twist * du * dv
+        length = end - start
+        least = min(least, height, height + length * (rate + length * bend))
+        if rate < 0.0 and rate + 2.0 * bend * length > 0.0:
+            least = min(least, height - rate * rate / (4.0 * bend))
+        if end >= t1:
+            return least
+        if out_u <= out_v:
+            i += 1 if du > 0.0 else -1
+            out_u = _way_out(u, du, i, -1, last_i)
+        else:
+            j += 1 if dv > 0.0 else -1
+            out_v = _way_out(v, dv, j, -1, last_j)
+        start = end
+
+
+@jit
+def _cell(position: float, first: int, last: int) -> int:
+    """The cell that a position lies in; the first and the last go on for ever."""
+    if not position >= first + 1:
+        return first
+    if position >= last:
+        return last
+    return int(math.floor(position))
+
+
+@jit
+def _way_out(position: float, rate: float, cell: int, first: int, last: int) -> float:
+    """The t at which position + t rate leaves a cell; infinite when it never does."""
+    if rate > 0.0 and cell < last:
+        return (cell + 1 - position) / rate
+    if rate < 0.0 and cell > first:
+        return (cell - position) / rate
+    return math.inf
+
+
+@jit
+def _first(out_u: float, out_v: float, t1: float) -> float:
+    """The smallest of three, of which the first two may be no numbers."""
+    end = t1
+    if out_u < end:
+        end = out_u
+    if out_v < end:
+        end = out_v
+    return end
