@@ -31,7 +31,8 @@ def leg_clearance_m(
         where there is more than wanted.
     """
     if len(terrain.posts) > 0:
-        return _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
+        exact: tuple[float, float] = _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
+        return exact
     base_m, wave, peaks = terrain.base_m, terrain.wave, terrain.peaks
     steps = _steps(p, q, wave, peaks)
     if s0_m < climb_out_m:  # the ramp's end is a corner of what is wanted, which curvature knows nothing of
@@ -54,23 +55,26 @@ def leg_clearance_m(
 @jit
 def _above_raster_m(
     p: Any, q: Any, s0_m: float, s1_m: float, terrain: Any, clearance_m: float, climb_out_m: float
-) -> tuple[float, float]:
+) -> tuple[float, float, float, float]:
     """`leg_clearance_m` above a raster.
 
     On the ramp the height above what is wanted there is that of a line lowered by it.
     """
     z0, z1 = p[2], q[2]
     if s0_m >= climb_out_m:
-        least = least_height_above_raster_m(p, q, z0, z1, 0.0, 1.0, terrain)
-        return least, clearance_m - least
+        least, lowest = least_height_above_raster_m(p, q, z0, z1, 0.0, 1.0, terrain)
+        return least, lowest, clearance_m - least, lowest
     ramp_end = min(1.0, (climb_out_m - s0_m) / (s1_m - s0_m))
     wanted0, wanted1 = clearance_m * s0_m / climb_out_m, clearance_m * s1_m / climb_out_m
-    least = least_height_above_raster_m(p, q, z0, z1, 0.0, ramp_end, terrain)
-    shortfall = -least_height_above_raster_m(p, q, z0 - wanted0, z1 - wanted1, 0.0, ramp_end, terrain)
+    least, lowest = least_height_above_raster_m(p, q, z0, z1, 0.0, ramp_end, terrain)
+    over, shortest = least_height_above_raster_m(p, q, z0 - wanted0, z1 - wanted1, 0.0, ramp_end, terrain)
     if ramp_end < 1.0:
-        beyond = least_height_above_raster_m(p, q, z0, z1, ramp_end, 1.0, terrain)
-        least, shortfall = min(least, beyond), max(shortfall, clearance_m - beyond)
-    return least, shortfall
+        beyond, place = least_height_above_raster_m(p, q, z0, z1, ramp_end, 1.0, terrain)
+        if beyond < least:
+            least, lowest = beyond, place
+        if beyond - clearance_m < over:
+            over, shortest = beyond - clearance_m, place
+    return least, lowest, -over, shortest
 
 
 @jit
