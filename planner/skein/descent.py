@@ -31,6 +31,7 @@ def descend(
     rho: float,
     soft_m: float,
     steps: int,
+    most: int,
     tolerance_km: float,
     hessian: Any,
 ) -> int:
@@ -41,7 +42,7 @@ def descend(
     Args:
         corners: (n + 1, 3) path in metres, moved.
         crossed, multipliers, rho, soft_m: of the merit.
-        steps: at most so many.
+        steps, most: so many, and so many gradients, at most.
         tolerance_km: ends when three steps together gain less.
         hessian: (d, d) inverse Hessian to begin with, km; refined.
     """
@@ -56,6 +57,8 @@ def descend(
     moved, bent = np.empty(d), np.empty(d)
     gained = np.full(3, math.inf)
     for step in range(steps):
+        if evaluations >= most:
+            break
         for i in range(d):
             gradient[i] = slopes[1 + i // 3, i % 3]
         slope = 0.0
@@ -81,7 +84,7 @@ def descend(
         length = min(1.0, LONGEST_STEP_KM / longest)
         low, high = 0.0, math.inf
         found = value
-        for _ in range(BISECTIONS):
+        for _ in range(min(BISECTIONS, most - evaluations)):
             for i in range(d):
                 trial[1 + i // 3, i % 3] = corners[1 + i // 3, i % 3] + length * direction[i] / KM
             found = merit(trial, problem, crossed, multipliers, rho, soft_m, limits, trial_slopes)
@@ -144,6 +147,7 @@ def polish(
     rounds: int,
     steps: int,
     tolerance_km: float,
+    allowance: int,
     best: Any,
 ) -> tuple[float, float, int]:
     """Rounds of descent, with multipliers and weight updated after each.
@@ -155,6 +159,7 @@ def polish(
         rho: weight to begin with; grows by `GROWTH` a round.
         soft_m: to begin with; halves each round, down to `HARDEST_M`.
         rounds, steps, tolerance_km: how long.
+        allowance: evaluations at most.
         best: (n + 1, 3) set to the best path found.
 
     Returns:
@@ -167,8 +172,14 @@ def polish(
     terms = np.empty(5)
     cost = math.inf
     gradients = 0
+    most = (allowance - rounds) // GRADIENT
     for _ in range(rounds):
-        gradients += 1 + descend(corners, tightened, crossed, multipliers, rho, soft_m, steps, tolerance_km, hessian)
+        left = most - gradients - 1
+        if left < 2:
+            break
+        gradients += 1 + descend(
+            corners, tightened, crossed, multipliers, rho, soft_m, steps, left, tolerance_km, hessian
+        )
         merit(corners, tightened, crossed, multipliers, rho, soft_m, limits, slopes)
         for i in range(len(multipliers)):
             multipliers[i] = max(0.0, multipliers[i] + rho * limits[i])

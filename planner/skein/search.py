@@ -5,6 +5,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 
 import numba
 import numpy as np
@@ -42,6 +43,12 @@ class Stage:
 STAGES = (Stage(3, 40, 1e-4, 6), Stage(3, 60, 1e-5, 3), Stage(3, 100, 1e-6, 1))
 WHOLE = (Stage(3, 40, 1e-4, 3), Stage(5, 80, 1e-5, 1))
 """Of starts beside the best."""
+WHOLE_DESCENT = 1500
+"""Evaluations that a descent takes from start to end, about: a small budget follows fewer starts."""
+SHARE_OF_STARTS = 10
+"""No more than the budget over this is spent on looking at starts."""
+LEAST_ALLOWANCE = 50
+"""Evaluations below which a descent is not worth its beginning."""
 WEIGHT, SOFTNESS_M = 10.0, 50.0
 """Of limits in the first round, 1 / km, and of (6)."""
 
@@ -124,10 +131,10 @@ class PathSearch:
         if len(self._around) or len(self.problem.terrain.posts):
             routed = routed_paths(self._grid, self.problem, self.waypoints, ROUTES, SPACINGS, self._rng)
             paths = np.concatenate([routed, paths])
-        paths = paths[: self.budget]
+        paths = paths[: max(1, self.budget // SHARE_OF_STARTS)]
         costs, _ = evaluate(paths[:, 1:-1].reshape(len(paths), -1), self.problem, "graded")
         self._count(len(paths), paths[int(np.argmin(costs))], float(costs.min()))
-        return [paths[i] for i in self._by_class(paths, costs)[:DESCENTS]]
+        return [paths[i] for i in self._by_class(paths, costs)[: min(DESCENTS, max(2, self.budget // WHOLE_DESCENT))]]
 
     def _by_class(self, paths_m: Sequence[FloatArray] | FloatArray, costs_km: Sequence[float] | FloatArray) -> list[int]:
         """Indices of paths: the best of each class, the best first, then the others."""
@@ -148,12 +155,16 @@ class PathSearch:
     def _follow(self, descents: list[Descent], stages: Iterable[Stage]) -> None:
         """Follow descents stage by stage, each time the better ones."""
         for stage in stages:
-            for descent, used in zip(descents, self._pool.map(lambda d: self._step(d, stage), descents), strict=True):
+            allowance = (self.budget - self.evaluations) // max(len(descents), 1)
+            if allowance < LEAST_ALLOWANCE:
+                raise OutOfBudgetError
+            step = partial(self._step, stage=stage, allowance=allowance)
+            for descent, used in zip(descents, self._pool.map(step, descents), strict=True):
                 self._count(used, descent.best_m, descent.cost_km)
             order = self._by_class([d.corners_m for d in descents], [d.cost_km for d in descents])
             descents = [descents[i] for i in order[: stage.survivors]]
 
-    def _step(self, descent: Descent, stage: Stage) -> int:
+    def _step(self, descent: Descent, stage: Stage, allowance: int) -> int:
         """Follow one descent for a stage; returns the evaluations that took."""
         best = descent.corners_m.copy()
         cost, descent.weight, used = polish(
@@ -167,6 +178,7 @@ class PathSearch:
             stage.rounds,
             stage.steps,
             stage.tolerance_km,
+            allowance,
             best,
         )
         descent.softness_m *= 0.5**stage.rounds
@@ -192,8 +204,6 @@ class PathSearch:
 
     def _count(self, used: int, path_m: FloatArray, cost_km: float) -> None:
         self.evaluations += used
-        if self.evaluations > self.budget:
-            raise OutOfBudgetError
         if cost_km < self.cost_km:
             self.best_m, self.cost_km = path_m.copy(), cost_km
         self.history.append(self.cost_km)
