@@ -37,7 +37,7 @@ TURN_MOST = 3.0
 def limits_count(legs: int, problem: Any) -> int:
     """How many limits a path of so many legs has."""
     things = len(problem.obstacles) + len(problem.radars) + len(problem.others)
-    return legs * (LEG_LIMITS + WAYPOINT_LIMITS + things)
+    return legs * (LEG_LIMITS + WAYPOINT_LIMITS + things) + 1
 
 
 @jit
@@ -219,6 +219,11 @@ def merit(
                 passed_slope[k] += later * (1.0 - t)
                 passed_slope[k + 1] += later * t
                 passed_slope[legs] -= later * at
+
+    # the least length flown
+    push, added = _limit(len(limits) - 1, (bounds.length_min_m - total) * KM, multipliers, rho, limits)
+    value += added
+    passed_slope[legs] -= push
 
     # f_T (5)-(6)
     least_sum = LEAST_CLEARANCE_KM * legs

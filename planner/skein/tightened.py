@@ -39,6 +39,7 @@ def tightened(problem: PathProblem) -> PathProblem:
         z_max_m=b.z_max_m - TIGHTER_M,
         leg_min_m=b.leg_min_m + TIGHTER_M,
         leg_max_m=b.leg_max_m - TIGHTER_M,
+        length_min_m=b.length_min_m + TIGHTER_M,
         turn_max=b.turn_max - TIGHTER,
         slope_min=b.slope_min * (1.0 - TIGHTER),
         slope_max=b.slope_max * (1.0 - TIGHTER),
