@@ -11,7 +11,7 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from planner.cost.kernel import INFEASIBLE_KM, evaluate
+from planner.cost.kernel import INFEASIBLE_KM, path_costs
 from planner.cost.problem import PathProblem
 from planner.cost.radar import radar_integral_m
 from planner.search.search import SearchResult
@@ -85,11 +85,18 @@ class PathSearch:
         waypoints: interior ones.
         budget: evaluations at most; a gradient counts as several.
         seed: of all chance.
+        threads: that follow descents.
         report: told evaluations and best cost whenever something was tried; may raise to stop.
     """
 
     def __init__(
-        self, problem: PathProblem, waypoints: int, budget: int, seed: int, report: Callable[[int, float], None]
+        self,
+        problem: PathProblem,
+        waypoints: int,
+        budget: int,
+        seed: int,
+        threads: int,
+        report: Callable[[int, float], None],
     ) -> None:
         self.problem = problem
         self.waypoints = waypoints
@@ -102,7 +109,7 @@ class PathSearch:
         self._grid = RouteGrid(problem)
         self._rng = np.random.default_rng(seed)
         self._report = report
-        self._pool = ThreadPoolExecutor(numba.get_num_threads())
+        self._pool = ThreadPoolExecutor(threads)
         inside = [
             any(math.dist(end, radar[:3]) < radar[3] for end in (problem.origin_m, problem.target_m))
             for radar in problem.radars
@@ -132,7 +139,7 @@ class PathSearch:
             routed = routed_paths(self._grid, self.problem, self.waypoints, ROUTES, SPACINGS, self._rng)
             paths = np.concatenate([routed, paths])
         paths = paths[: max(1, self.budget // SHARE_OF_STARTS)]
-        costs, _ = evaluate(paths[:, 1:-1].reshape(len(paths), -1), self.problem, "graded")
+        costs = path_costs(paths, self.problem)
         self._count(len(paths), paths[int(np.argmin(costs))], float(costs.min()))
         return [paths[i] for i in self._by_class(paths, costs)[: min(DESCENTS, max(2, self.budget // WHOLE_DESCENT))]]
 
@@ -211,7 +218,13 @@ class PathSearch:
 
 
 def skein_path(
-    problem: PathProblem, waypoints: int, *, budget: int, seed: int, report: Callable[[int, float], None]
+    problem: PathProblem,
+    waypoints: int,
+    *,
+    budget: int,
+    seed: int,
+    report: Callable[[int, float], None],
+    threads: int | None = None,
 ) -> SearchResult:
     """Search for the best path of one UAV.
 
@@ -220,6 +233,7 @@ def skein_path(
         waypoints: interior ones.
         budget: evaluations of the objective at most; a gradient counts as `planner.skein.descent.GRADIENT`.
         seed: of all chance; with the budget it decides the result, whatever the number of threads.
+        threads: that follow descents; as many as numba uses unless given.
         report: told of evaluations used and the best cost, km, whenever something was tried; may raise to stop.
     """
-    return PathSearch(problem, waypoints, budget, seed, report).run()
+    return PathSearch(problem, waypoints, budget, seed, threads or numba.get_num_threads(), report).run()
