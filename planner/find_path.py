@@ -1,11 +1,12 @@
 """The search for one UAV's path."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import OptimizeResult
 
 from missions.errors import InputError
 from missions.scenario import Scenario, VehicleModel
@@ -14,15 +15,17 @@ from planner.cost.kernel import INFEASIBLE_KM, Reading, evaluate
 from planner.cost.problem import PLANNING_MARGINS, PathProblem, path_problem
 from planner.first_paths import box, first_paths
 from planner.limits import airspeed_range_m_s
-from planner.search.hybrid import hybrid
-from planner.search.pso import pso
-from planner.search.search import Report, Search
+from planner.search import minimize
 
 FloatArray = npt.NDArray[np.float64]
+Report = Callable[[int, int, float], None]
+"""Told as a search goes on: iterations done, how many there are, and the best cost so far."""
 
-SEARCHES: dict[str, Search] = {"pso": pso, "hybrid": hybrid}
+SEARCHES = ("pso", "qpso", "hybrid", "published")
+"""Those of `planner.search.methods` that search for paths."""
 EVALUATIONS = 3
-"""Budgets are population x iterations x this: what the hybrid takes, so that methods compare (MODEL, section 8)."""
+"""A particle an iteration: what the hybrid takes. Others make more of their own steps in an iteration, so that methods
+compare (MODEL, section 8)."""
 SEARCH_STREAM = 1
 """Purpose of the random streams of searches, beside seed, sysid and attempt."""
 DETOUR = 1.05
@@ -37,7 +40,8 @@ class PathFound:
         problem: that it was given.
         corners_m: (m, 3) of the best path.
         cost_km: of that; above `INFEASIBLE_KM` when it breaks a limit.
-        evaluations, history: of the search.
+        evaluations: of the search.
+        history: best cost after each iteration.
     """
 
     problem: PathProblem
@@ -67,7 +71,7 @@ def find_path(
     Args:
         scenario, vehicle: whose path.
         earlier: paths of the UAVs that go before.
-        method: a key of `SEARCHES`.
+        method: one of `SEARCHES`.
         seed, attempt: with the vehicle's sysid, all there is of chance.
         report: told of every iteration.
     """
@@ -83,16 +87,29 @@ def find_path(
     rng = np.random.default_rng(np.random.SeedSequence([seed, SEARCH_STREAM, vehicle.sysid, attempt]))
     reading: Reading = settings.reading
     low, high = box(problem)
-    result = SEARCHES[method](
+    share = settings.population * EVALUATIONS
+
+    def tell(now: OptimizeResult) -> None:
+        if now.nfev % share == 0:
+            report(now.nfev // share, settings.iterations, now.fun)
+
+    result = minimize(
         lambda population: evaluate(population, problem, reading)[0],
-        first_paths(problem, settings.waypoints, settings.population, rng),
-        np.tile(low, settings.waypoints),
-        np.tile(high, settings.waypoints),
-        budget=settings.population * settings.iterations * EVALUATIONS,
-        rng=rng,
-        report=report,
+        np.tile(np.column_stack([low, high]), (settings.waypoints, 1)),
+        method=method,
+        budget=share * settings.iterations,
+        seed=rng,
+        x0=first_paths(problem, settings.waypoints, settings.population, rng),
+        callback=tell,
     )
-    return PathFound(problem, problem.corners_m(result.best), result.cost, result.evaluations, result.history)
+    return PathFound(problem, problem.corners_m(result.x), result.fun, result.nfev, _after_each(share, result.history))
+
+
+def _after_each(share: int, history: FloatArray) -> tuple[float, ...]:
+    """Best cost after each `share` of evaluations, from that after each batch."""
+    evaluations, best = history.T
+    ends = np.arange(share, evaluations[-1] + 1, share)
+    return tuple(best[np.searchsorted(evaluations, ends, side="right") - 1].tolist())
 
 
 def require_feasible(name: str, path: PathFound, attempts: int) -> None:

@@ -61,7 +61,7 @@ def plan(
     Args:
         scenario: what to plan.
         seed: of all chance; the scenario's unless given.
-        method: a key of `planner.find_path.SEARCHES`; the scenario's unless given. Slots need no search.
+        method: one of `planner.find_path.SEARCHES`; the scenario's unless given. Slots need no search.
         progress: told of every iteration.
 
     Raises:

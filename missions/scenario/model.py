@@ -215,7 +215,7 @@ class LimitsModel(Keys):
 class SearchModel(Keys):
     """How paths are searched for."""
 
-    method: Literal["pso", "hybrid"] = "hybrid"
+    method: Literal["pso", "qpso", "hybrid", "published"] = "hybrid"
     waypoints: Count = 12
     """Interior waypoints of each path."""
     population: Annotated[int, Field(strict=True, ge=4)] = 150
