@@ -1,29 +1,32 @@
 """The search for one UAV's path."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import OptimizeResult
 
 from missions.scenario import Scenario, VehicleModel
 from planner.cost.constraints import with_progress
-from planner.cost.kernel import INFEASIBLE_KM, Reading, evaluate
+from planner.cost.kernel import INFEASIBLE_KM, evaluate
 from planner.cost.problem import PLANNING_MARGINS, Margins, PathProblem, path_problem
 from planner.first_paths import box, first_paths
 from planner.limits import airspeed_range_m_s
-from planner.search.hybrid import hybrid
-from planner.search.pso import pso
-from planner.search.search import Report, Search
+from planner.search import minimize
 from planner.skein.search import skein_path
 
 FloatArray = npt.NDArray[np.float64]
 
-SEARCHES: dict[str, Search] = {"pso": pso, "hybrid": hybrid}
-"""Searches that see a cost function and nothing else."""
+Report = Callable[[int, int, float], None]
+"""Told as a search goes on: evaluations made, how many there may be, and the best cost so far."""
+History = tuple[tuple[int, float], ...]
+"""Evaluations, and the best cost after so many."""
+
 SKEIN = "skein"
-METHODS = (SKEIN, *SEARCHES)
+METHODS = (SKEIN, "pso", "qpso", "hybrid", "published")
+"""Skein's own, which sees the problem, and those of `planner.search.methods` that see a cost function."""
 EVALUATIONS = 3
 """Budgets are population x iterations x this: what the hybrid takes, so that methods compare (MODEL, section 8)."""
 SEARCH_STREAM = 1
@@ -58,14 +61,15 @@ class PathFound:
         problem: that it was given.
         corners_m: (m, 3) of the best path.
         cost_km: of that; above `INFEASIBLE_KM` when it breaks a limit.
-        evaluations, history: of the search.
+        evaluations: of the search.
+        history: of the search.
     """
 
     problem: PathProblem
     corners_m: FloatArray
     cost_km: float
     evaluations: int
-    history: tuple[float, ...]
+    history: History
 
     @property
     def feasible(self) -> bool:
@@ -101,7 +105,7 @@ def find_path(
     budget = settings.population * settings.iterations * EVALUATIONS
     chance = np.random.SeedSequence([seed, SEARCH_STREAM, vehicle.sysid, wish.attempt])
     if method == SKEIN:
-        result = skein_path(
+        found = skein_path(
             problem,
             settings.waypoints,
             budget=budget,
@@ -109,20 +113,33 @@ def find_path(
             threads=threads,
             report=lambda evaluations, best_km: report(evaluations, budget, best_km),
         )
-    else:
-        rng = np.random.default_rng(chance)
-        reading: Reading = settings.reading
-        low, high = box(problem)
-        result = SEARCHES[method](
-            lambda population: evaluate(population, problem, reading)[0],
-            first_paths(problem, settings.waypoints, settings.population, rng),
-            np.tile(low, settings.waypoints),
-            np.tile(high, settings.waypoints),
-            budget=budget,
-            rng=rng,
-            report=report,
-        )
-    return PathFound(problem, problem.corners_m(result.best), result.cost, result.evaluations, result.history)
+        return PathFound(problem, problem.corners_m(found.x), found.fun, found.nfev, found.history)
+    return _swarmed(problem, scenario, method, budget, np.random.default_rng(chance), report)
+
+
+def _swarmed(
+    problem: PathProblem, scenario: Scenario, method: str, budget: int, rng: np.random.Generator, report: Report
+) -> PathFound:
+    """Search by a method that knows nothing of paths, from smooth bends of the straight line."""
+    settings = scenario.search
+    share = settings.population * EVALUATIONS
+    history: list[tuple[int, float]] = []
+
+    def tell(now: OptimizeResult) -> None:
+        if now.nfev % share == 0:
+            history.append((now.nfev, now.fun))
+            report(now.nfev, budget, now.fun)
+
+    result = minimize(
+        lambda population: evaluate(population, problem, settings.reading)[0],
+        np.tile(np.column_stack(box(problem)), (settings.waypoints, 1)),
+        method=method,
+        budget=budget,
+        seed=rng,
+        x0=first_paths(problem, settings.waypoints, settings.population, rng),
+        callback=tell,
+    )
+    return PathFound(problem, problem.corners_m(result.x), result.fun, result.nfev, tuple(history))
 
 
 def vehicle_problem(

@@ -183,7 +183,7 @@ def _assembled(
                 straight_line_m=float(np.linalg.norm(path.corners_m[-1] - path.corners_m[0])),
                 length_m=float(np.sum(np.hypot(schedule.arcs_m, schedule.arcs_m * schedule.slopes))),
                 evaluations=path.evaluations,
-                history=tuple(cost if cost < INFEASIBLE_KM else None for cost in path.history),
+                history=tuple((n, cost if cost < INFEASIBLE_KM else None) for n, cost in path.history),
                 mission=write_mission(path.corners_m, schedule, circle, scenario.frame),
             )
         )

@@ -86,7 +86,5 @@ def conflict_km(scenario: Scenario, i: int, path: PathFound, other: PathFound) -
     """What a path costs more, by f_C, for one other UAV (9)-(10)."""
     there = with_progress(other.corners_m, other.problem)
     problem = vehicle_problem(scenario, scenario.vehicles[i], [there])
-    _, terms = evaluate(
-        path.corners_m[1:-1].reshape(1, -1), problem._replace(obstacles=np.empty((0, 5))), "graded"
-    )
+    _, terms = evaluate(path.corners_m[1:-1].reshape(1, -1), problem._replace(obstacles=np.empty((0, 5))), "graded")
     return float(terms[0, 3])

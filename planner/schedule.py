@@ -117,7 +117,7 @@ def common_arrival(names: Sequence[str], paths: Sequence[FloatArray], scenario: 
 
 
 def arrival_window_s(corners_m: FloatArray, scenario: Scenario) -> tuple[float, float] | None:
-    """Soonest and latest arrival of one UAV at one ground speed all the way; None when it cannot fly its path at all."""
+    """Soonest and latest arrival of one UAV at one ground speed all the way; None when it cannot fly its path."""
     wind = scenario.wind.forecast_m_s
     airspeeds = airspeed_range_m_s(scenario)
     blowing = math.hypot(*wind)

@@ -50,7 +50,9 @@ def connect(address: str) -> Cluster:
         try:
             client.wait_for_workers(1, timeout=CONNECT_S)
         except TimeoutError:
-            raise InputError(f"--cluster {address}: no worker within {CONNECT_S:g} s; start one with `dask worker`") from None
+            raise InputError(
+                f"--cluster {address}: no worker within {CONNECT_S:g} s; start one with `dask worker`"
+            ) from None
         workers: dict[str, Any] = client.scheduler_info(n_workers=-1)["workers"]
         for name, worker in workers.items():
             if worker["nthreads"] != 1:

@@ -14,7 +14,6 @@ import numpy.typing as npt
 from planner.cost.kernel import INFEASIBLE_KM, path_costs
 from planner.cost.problem import PathProblem
 from planner.cost.radar import radar_integral_m
-from planner.search.search import SearchResult
 from planner.skein.descent import polish
 from planner.skein.merit import limits_count
 from planner.skein.routes import RouteGrid
@@ -55,6 +54,23 @@ WEIGHT, SOFTNESS_M = 10.0, 50.0
 
 class OutOfBudgetError(Exception):
     """No evaluations are left."""
+
+
+@dataclass(frozen=True)
+class PathResult:
+    """What the search found, named as scipy's `OptimizeResult` names it.
+
+    Attributes:
+        x: (3 waypoints,) interior waypoints of the best path, metres.
+        fun: its cost, kilometres.
+        nfev: evaluations.
+        history: evaluations and best cost whenever something was tried.
+    """
+
+    x: FloatArray
+    fun: float
+    nfev: int
+    history: tuple[tuple[int, float], ...]
 
 
 @dataclass
@@ -102,7 +118,7 @@ class PathSearch:
         self.waypoints = waypoints
         self.budget = budget
         self.evaluations = 0
-        self.history: list[float] = []
+        self.history: list[tuple[int, float]] = []
         self._tightened = tightened(problem)
         self._limits = limits_count(waypoints + 1, problem)
         self._around = threats(problem)
@@ -118,7 +134,7 @@ class PathSearch:
         self.best_m = np.linspace(problem.origin_m, problem.target_m, waypoints + 2)
         self.cost_km = math.inf
 
-    def run(self) -> SearchResult:
+    def run(self) -> PathResult:
         """Search until nothing better is near, or the budget is used."""
         try:
             with self._pool:
@@ -130,7 +146,7 @@ class PathSearch:
                     pass
         except OutOfBudgetError:
             pass
-        return SearchResult(self.best_m[1:-1].ravel(), self.cost_km, tuple(self.history), self.evaluations)
+        return PathResult(self.best_m[1:-1].ravel(), self.cost_km, self.evaluations, tuple(self.history))
 
     def _starts(self) -> list[FloatArray]:
         """The cheapest start of each class, the cheapest first."""
@@ -143,11 +159,14 @@ class PathSearch:
         self._count(len(paths), paths[int(np.argmin(costs))], float(costs.min()))
         return [paths[i] for i in self._by_class(paths, costs)[: min(DESCENTS, max(2, self.budget // WHOLE_DESCENT))]]
 
-    def _by_class(self, paths_m: Sequence[FloatArray] | FloatArray, costs_km: Sequence[float] | FloatArray) -> list[int]:
+    def _by_class(
+        self, paths_m: Sequence[FloatArray] | FloatArray, costs_km: Sequence[float] | FloatArray
+    ) -> list[int]:
         """Indices of paths: the best of each class, the best first, then the others."""
         named = classes(paths_m, self._around)
         seen: set[bytes] = set()
-        first, later = [], []
+        first: list[int] = []
+        later: list[int] = []
         for i in np.argsort(costs_km, kind="stable").tolist():
             (later if named[i] in seen else first).append(i)
             seen.add(named[i])
@@ -155,9 +174,7 @@ class PathSearch:
 
     def _descent(self, start_m: FloatArray, *, through: bool = False) -> Descent:
         crossed = self._within | through
-        return Descent(
-            start_m.copy(), crossed, np.zeros(self._limits), WEIGHT, SOFTNESS_M, start_m.copy(), math.inf
-        )
+        return Descent(start_m.copy(), crossed, np.zeros(self._limits), WEIGHT, SOFTNESS_M, start_m.copy(), math.inf)
 
     def _follow(self, descents: list[Descent], stages: Iterable[Stage]) -> None:
         """Follow descents stage by stage, each time the better ones."""
@@ -196,7 +213,10 @@ class PathSearch:
     def _improve(self) -> bool:
         """Try the classes beside the best path; whether one is better."""
         before = self.cost_km
-        starts = [self._descent(path) for path in on_other_sides(self.best_m, self.problem, self._around, self._grid, self._rng)]
+        starts = [
+            self._descent(path)
+            for path in on_other_sides(self.best_m, self.problem, self._around, self._grid, self._rng)
+        ]
         through = np.array([self._crosses(radar) for radar in self.problem.radars], dtype=np.bool_)
         if through.any():
             again = self._descent(self.best_m)
@@ -213,7 +233,7 @@ class PathSearch:
         self.evaluations += used
         if cost_km < self.cost_km:
             self.best_m, self.cost_km = path_m.copy(), cost_km
-        self.history.append(self.cost_km)
+        self.history.append((self.evaluations, self.cost_km))
         self._report(self.evaluations, self.cost_km)
 
 
@@ -225,7 +245,7 @@ def skein_path(
     seed: int,
     report: Callable[[int, float], None],
     threads: int | None = None,
-) -> SearchResult:
+) -> PathResult:
     """Search for the best path of one UAV.
 
     Args:
