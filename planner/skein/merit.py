@@ -14,6 +14,7 @@ import numpy as np
 
 from missions.environment.terrain import ground_height_and_slope
 from planner.compiled import compile_shared, jit
+from planner.cost.leg_box import apart, leg_box
 from planner.cost.radar import radar_integral_m
 from planner.cost.separation import least_separation_m
 from planner.cost.terrain import leg_clearance_m
@@ -56,7 +57,7 @@ def merit(
         limits: (limits_count,), set to c of each limit, km: kept where not above 0.
         gradient: (n + 1, 3), set to the slopes, km / km.
     """
-    bounds = problem.bounds
+    bounds, terrain, obstacles, radars = problem.bounds, problem.terrain, problem.obstacles, problem.radars
     legs = len(corners) - 1
     gradient[:] = 0.0
     limits[:] = -1e3
@@ -90,7 +91,7 @@ def merit(
     clearance_place = np.empty(legs)
     heights = np.empty((legs + 1, 3))
     for k in range(legs + 1):
-        heights[k] = _ground(corners[k, 0], corners[k, 1], problem.terrain)
+        heights[k] = _ground(corners[k, 0], corners[k, 1], terrain)
 
     per_leg = LEG_LIMITS + WAYPOINT_LIMITS + len(problem.obstacles) + len(problem.radars) + len(problem.others)
     for k in range(legs):
@@ -144,14 +145,14 @@ def merit(
 
         # clearance
         least, lowest, shortfall, shortest = leg_clearance_m(
-            p, q, passed[k], passed[k + 1], problem.terrain, bounds.clearance_m, bounds.climb_out_m
+            p, q, passed[k], passed[k + 1], terrain, bounds.clearance_m, bounds.climb_out_m
         )
         clearance_place[k] = lowest
         clearance_sum += _soft_least(p[2] - heights[k, 0], q[2] - heights[k + 1, 0], least, soft_m, clearance_weight[k])
         push, added = _limit(i + 7, shortfall * KM, multipliers, rho, limits)
         if added != 0.0:
             value += added
-            _raise(gradient, k, p, q, shortest, -push, problem.terrain)
+            _raise(gradient, k, p, q, shortest, -push, terrain)
             if passed[k] + shortest * arcs[k] < bounds.climb_out_m:
                 ramp = push * bounds.clearance_m / bounds.climb_out_m
                 passed_slope[k] += ramp * (1.0 - shortest)
@@ -159,7 +160,7 @@ def merit(
         push, added = _limit(i + 8, -least * KM, multipliers, rho, limits)
         if added != 0.0:
             value += added
-            _raise(gradient, k, p, q, lowest, -push, problem.terrain)
+            _raise(gradient, k, p, q, lowest, -push, terrain)
         i += LEG_LIMITS
 
         # the box (1) at the leg's end
@@ -175,16 +176,25 @@ def merit(
                 gradient[k + 1, axis] += push
         i += WAYPOINT_LIMITS
 
-        for j in range(len(problem.obstacles)):
-            distance, t, nx, ny, nz = wall_distance(p, q, problem.obstacles[j])
+        box = leg_box(p, q)
+        for j in range(len(obstacles)):
+            if apart(box, obstacles[j, 0], obstacles[j, 1], obstacles[j, 2] + obstacles[j, 4]):
+                value -= 0.5 * multipliers[i + j] * multipliers[i + j] / rho
+                continue
+            distance, t, nx, ny, nz = wall_distance(p, q, obstacles[j])
             if distance < math.inf:
-                push, added = _limit(i + j, (problem.obstacles[j, 4] - distance) * KM, multipliers, rho, limits)
+                push, added = _limit(i + j, (obstacles[j, 4] - distance) * KM, multipliers, rho, limits)
                 value += added
                 _push(gradient, k, t, -push * nx, -push * ny, -push * nz)
-        i += len(problem.obstacles)
+            else:
+                value -= 0.5 * multipliers[i + j] * multipliers[i + j] / rho
+        i += len(obstacles)
 
-        for j in range(len(problem.radars)):
-            radar = problem.radars[j]
+        for j in range(len(radars)):
+            if apart(box, radars[j, 0], radars[j, 1], radars[j, 3]):
+                value -= 0.5 * multipliers[i + j] * multipliers[i + j] / rho
+                continue
+            radar = radars[j]
             if crossed[j]:
                 integral = radar_integral_m(p, q, radar)
                 if integral > 0.0:
@@ -196,7 +206,7 @@ def merit(
                 if added != 0.0:
                     value += added
                     _push(gradient, k, t, -push * nx, -push * ny, -push * nz)
-        i += len(problem.radars)
+        i += len(radars)
 
         start, end = passed[k] / total, passed[k + 1] / total
         for j in range(len(problem.others)):
@@ -240,7 +250,7 @@ def merit(
                 gradient[k + end, 1] -= weight * heights[k + end, 2]
             if clearance_weight[k, 2] > 0.0:
                 weight = mean_slope * clearance_weight[k, 2]
-                _raise(gradient, k, corners[k], corners[k + 1], clearance_place[k], weight, problem.terrain)
+                _raise(gradient, k, corners[k], corners[k + 1], clearance_place[k], weight, terrain)
 
     # f_H (11)
     mean = 0.0
