@@ -13,7 +13,7 @@ from missions.errors import InputError
 from missions.reference.reference import fillet_radius_m
 from missions.scenario import Scenario
 from planner.cost.constraints import with_progress
-from planner.cost.kernel import INFEASIBLE_KM, evaluate
+from planner.cost.kernel import INFEASIBLE_KM, evaluate, path_cost
 from planner.cost.problem import NO_MARGINS, PathProblem, path_problem
 from planner.find_path import METHODS, NO_WISH, SKEIN, PathFound, find_path, vehicle_problem
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
@@ -79,7 +79,7 @@ def plan(
     if seed < 0:
         raise InputError(f"seed {seed}: must be 0 or more")
     start = time.perf_counter()
-    _compile(scenario)
+    _compile(scenario, method)
     compiled = time.perf_counter()
     if method == SLOTS:
         result, report = _on_slots(scenario, seed)
@@ -89,13 +89,16 @@ def plan(
     return replace(result, compile_s=compiled - start, plan_s=time.perf_counter() - compiled)
 
 
-def _compile(scenario: Scenario) -> None:
+def _compile(scenario: Scenario, method: str) -> None:
     """Have the kernels compiled, or loaded from their cache, by one use."""
     problem = path_problem(
         scenario, scenario.vehicles[0], np.empty((0, 2, 4)), scenario.airframe.airspeed_cruise_m_s, NO_MARGINS
     )
-    evaluate(np.zeros((1, 3)), problem, "graded")
-    skein_path(problem, 1, budget=200, seed=0, report=lambda *_: None)
+    path_cost(problem.corners_m([]), problem, False, np.empty(5))
+    if method == SKEIN:
+        skein_path(problem, 1, budget=200, seed=0, report=lambda *_: None)
+    elif method != SLOTS:
+        evaluate(np.zeros((1, 3)), problem, "graded")
     with_progress(problem.corners_m([]), problem)
     one, airframe = np.ones(1), scenario.airframe.airframe()
     flyable_at(one, one, one, one, scenario.wind.forecast_m_s, airspeed_range_m_s(scenario), airframe)
@@ -193,5 +196,6 @@ def _assembled(
 
 def _terms(corners_m: FloatArray, problem: PathProblem) -> FitnessTerms:
     """The objective's terms of a path that keeps to all limits: the same in both readings."""
-    _, terms = evaluate(corners_m[1:-1].reshape(1, -1), problem, "published")
-    return FitnessTerms(*terms[0].tolist())
+    terms = np.empty(5)
+    path_cost(corners_m, problem, False, terms)
+    return FitnessTerms(*terms.tolist())
