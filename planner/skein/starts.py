@@ -20,6 +20,10 @@ SIDEWAYS = (0.03, 0.25)
 """Typical sideways bend of the mildest and of the wildest path, in lengths of the line."""
 EVENNESS = (1.0, 30.0)
 """Of the spacing of waypoints: parameters of a Dirichlet distribution, from wild to even."""
+BEND = (0.08, 0.4)
+"""Half width of the shortest and of the longest jump, in lengths of the path."""
+JUMP = 0.04
+"""Half of all jumps are smaller than this, in lengths of the line."""
 LOW_M = 30.0
 """Starts stay so far above the least clearance where they can."""
 POINTS = 200
@@ -42,17 +46,42 @@ def bent_paths(problem: PathProblem, waypoints: int, count: int, rng: np.random.
 
 
 def routed_paths(
-    grid: RouteGrid, problem: PathProblem, waypoints: int, count: int, spacings: int, rng: np.random.Generator
+    grid: RouteGrid,
+    problem: PathProblem,
+    waypoints: int,
+    count: int,
+    spacings: int,
+    rng: np.random.Generator,
+    *,
+    chance: bool = False,
 ) -> FloatArray:
-    """(count x spacings, n + 1, 3) corners of paths along routes, the cheapest first; some evenly spaced, some not."""
-    routes = [grid.route(rng=None if i == 0 else rng) for i in range(count)]
+    """(count x spacings, n + 1, 3) corners of paths along routes, the cheapest first and evenly spaced first, unless all
+    is left to chance."""
+    routes = [grid.route(rng=rng if i or chance else None) for i in range(count)]
     return np.array(
         [
-            path_along(route, spacing(waypoints, None if i == 0 else rng), problem)
+            path_along(route, spacing(waypoints, rng if i or chance else None), problem)
             for i in range(spacings)
             for route in routes
         ]
     )
+
+
+def jumped_paths(corners_m: FloatArray, problem: PathProblem, count: int, rng: np.random.Generator) -> FloatArray:
+    """(count, n + 1, 3) paths that leave a path of (n + 1, 3) corners by a bend of Cauchy-distributed size somewhere,
+    with other spacings: most stay near, some go far, as the paper's mutants (43) do."""
+    line = (problem.target_m - problem.origin_m)[:2]
+    left = np.array([-line[1], line[0]])
+    jumped = []
+    for _ in range(count):
+        part = np.linspace(0.0, 1.0, len(corners_m))
+        middle, width = rng.uniform(0.0, 1.0), math.exp(rng.uniform(math.log(BEND[0]), math.log(BEND[1])))
+        bump = np.cos(0.5 * np.pi * np.clip((part - middle) / width, -1.0, 1.0)) ** 2
+        bump[[0, -1]] = 0.0
+        size = float(np.clip(JUMP * math.tan(math.pi * (rng.random() - 0.5)), -0.5, 0.5))  # (43)
+        route = corners_m[:, :2] + size * bump[:, None] * left
+        jumped.append(path_along(route, spacing(len(corners_m) - 2, rng), problem))
+    return np.array(jumped)
 
 
 def spacing(waypoints: int, rng: np.random.Generator | None) -> FloatArray:
