@@ -19,9 +19,9 @@ def error_of(text: str) -> str:
     return message
 
 
-def test_three_scenarios_ship_with_nine_vehicles_each() -> None:
-    assert shipped_scenarios() == ["mountains", "radars", "vee"]
-    assert [len(load_scenario(name).vehicles) for name in shipped_scenarios()] == [9, 9, 9]
+def test_four_scenarios_ship_with_nine_vehicles_each() -> None:
+    assert shipped_scenarios() == ["mountains", "radars", "ridge", "vee"]
+    assert [len(load_scenario(name).vehicles) for name in shipped_scenarios()] == [9, 9, 9, 9]
 
 
 @pytest.mark.parametrize(
