@@ -69,7 +69,7 @@ def test_files_that_are_no_scenarios(tmp_path: Path, content: bytes) -> None:
 
 
 def test_a_missing_file_names_what_ships() -> None:
-    with pytest.raises(InputError, match="mountains, radars, vee"):
+    with pytest.raises(InputError, match="mountains, radars, ridge, vee"):
         load_scenario("nowhere.toml")
 
 
