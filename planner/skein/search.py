@@ -42,6 +42,8 @@ class Stage:
 STAGES = (Stage(3, 40, 1e-4, 6), Stage(3, 60, 1e-5, 3), Stage(3, 100, 1e-6, 1))
 WHOLE = (Stage(3, 40, 1e-4, 3), Stage(5, 80, 1e-5, 1))
 """Of starts beside the best."""
+INSISTENT = (Stage(16, 150, 1e-7, 1),)
+"""From the best of only infeasible paths: its limits may leave a narrow way."""
 WHOLE_DESCENT = 1500
 """Evaluations that a descent takes from start to end, about: a small budget follows fewer starts."""
 SHARE_OF_STARTS = 10
@@ -149,6 +151,8 @@ class PathSearch:
                 self._follow([self._descent(start) for start in starts], STAGES)
                 if self.cost_km >= INFEASIBLE_KM:
                     self._follow([self._descent(start, through=True) for start in starts], STAGES)
+                if self.cost_km >= INFEASIBLE_KM:
+                    self._follow([self._descent(self.best_m), self._descent(self.best_m, through=True)], INSISTENT)
                 while self._improve():
                     pass
                 stale = 0
