@@ -16,15 +16,15 @@ def least_wall_distance_m(p: Any, q: Any, obstacle: Any) -> float:
 
     Infinite as soon as it is known to be more than the distance to keep, obstacle[4].
     """
-    least: float = wall_distance_and_place(p, q, obstacle)[0]
+    least: float = wall_distance_and_place(p, q, obstacle, obstacle[4])[0]
     return least
 
 
 @jit
-def wall_distance_and_place(p: Any, q: Any, obstacle: Any) -> tuple[float, float]:
+def wall_distance_and_place(p: Any, q: Any, obstacle: Any, reach_m: float) -> tuple[float, float]:
     """`least_wall_distance_m`, and the part of the leg after which it is reached.
 
-    Infinite as soon as it is known to be more than the distance to keep, obstacle[4]. The signed distance to a convex
+    Infinite as soon as it is known to be more than `reach_m`. The signed distance to a convex
     body is convex along a line: a golden-section search cannot be led astray where the closed forms, beside the wall
     and above the top, do not settle it.
     """
@@ -36,7 +36,7 @@ def wall_distance_and_place(p: Any, q: Any, obstacle: Any) -> tuple[float, float
     beside = math.sqrt(x * x + y * y) - obstacle[2]
     lowest = 0.0 if dz >= 0.0 else 1.0
     above = p[2] + lowest * dz - obstacle[3]
-    if max(beside, above) > obstacle[4]:
+    if max(beside, above) > reach_m:
         return math.inf, nearest
     if p[2] + nearest * dz - obstacle[3] <= min(beside, 0.0):
         return beside, nearest

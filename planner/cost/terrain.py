@@ -36,7 +36,8 @@ def leg_clearance_m(
         return exact
     base_m, wave, peaks = terrain.base_m, terrain.wave, terrain.peaks
     steps = _steps(p, q, wave, peaks)
-    # The ramp's end is a corner of what is wanted, which curvature knows nothing of: one sample more, right there.
+    # The ramp's end is a corner of what is wanted, which curvature knows nothing of: one sample more, right there, for
+    # the shortfall; it moves along the leg, which a sample of the least clearance must not.
     ramp_end = (climb_out_m - s0_m) / max(s1_m - s0_m, SHORT_M)
     samples = steps + 2 if 0.0 < ramp_end < 1.0 else steps + 1
     least = math.inf
@@ -47,7 +48,7 @@ def leg_clearance_m(
         x, y, z = p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])
         clearance = z - _analytic_height_m(x, y, base_m, wave, peaks)
         wanted = clearance_m * min(1.0, (s0_m + t * (s1_m - s0_m)) / climb_out_m)
-        if clearance < least:
+        if i <= steps and clearance < least:
             least, lowest = clearance, t
         if wanted - clearance > shortfall:
             shortfall, shortest = wanted - clearance, t
