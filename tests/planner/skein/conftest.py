@@ -66,7 +66,9 @@ def _problem(
 def _drawn_terrain(rng: np.random.Generator) -> Terrain:
     if rng.random() < 0.5:
         posts = 250.0 + 200.0 * np.add.outer(np.sin(np.arange(50) / 5.0), np.cos(np.arange(50) / 4.0))
-        return Terrain(0.0, NO_WAVE, [], posts + rng.uniform(0.0, 60.0, (50, 50)), -500.0, -9000.0, 400.0, 380.0).as_array()
+        return Terrain(
+            0.0, NO_WAVE, [], posts + rng.uniform(0.0, 60.0, (50, 50)), -500.0, -9000.0, 400.0, 380.0
+        ).as_array()
     peaks = [
         (rng.uniform(-200.0, 900.0), rng.uniform(3e3, 17e3), rng.uniform(-3e3, 3e3), *rng.uniform(500.0, 3000.0, 2))
         for _ in range(3)
@@ -82,7 +84,12 @@ def _drawn(rng: np.random.Generator) -> tuple[PathProblem, FloatArray]:
     part = np.linspace(0.0, 1.0, LEGS + 1)
     others = [
         np.column_stack(
-            [part * 20000, rng.uniform(-1500, 1500, LEGS + 1), part * 1000, np.sort([0, *rng.uniform(size=LEGS - 1), 1])]
+            [
+                part * 20000,
+                rng.uniform(-1500, 1500, LEGS + 1),
+                part * 1000,
+                np.sort([0, *rng.uniform(size=LEGS - 1), 1]),
+            ]
         )
         for _ in range(2)
     ]
