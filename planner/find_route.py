@@ -51,12 +51,14 @@ def route_problem(scenario: Scenario, share: float) -> PathProblem:
     """The problem of a path in the middle of a formation, with a part of its half-width free on both sides.
 
     Obstacles keep that much more distance, except where an end of the route is nearer; the area is that much
-    narrower; the ground is as high as it is anywhere that near. Legs are so long that the inside of two turns leaves
-    the shortest and the outside no more than the longest. Climbs are those that power allows against the forecast wind.
+    narrower; the ground is as high as it is anywhere that near. Legs are so long that the inside of two turns, or the
+    last slot's shorter way at the end, leaves the shortest, and the other side no more than the
+    longest. Climbs are those that power allows against the forecast wind.
     """
     assert scenario.route is not None
     route = scenario.route
-    half_width = max(abs(vehicle.slot.left_m) for vehicle in scenario.vehicles if vehicle.slot)
+    slots = [vehicle.slot for vehicle in scenario.vehicles if vehicle.slot]
+    half_width, depth = max(abs(slot.left_m) for slot in slots), max(slot.behind_m for slot in slots)
     aside = share * half_width
     middle = VehicleModel(name="route", sysid=1, origin=route.points[0], target=route.points[-1])
     against_wind = route.ground_speed_m_s + math.hypot(*scenario.wind.forecast_m_s)
@@ -68,6 +70,7 @@ def route_problem(scenario: Scenario, share: float) -> PathProblem:
         row[4] = max(row[4], min(row[4] + aside, at_ends))
     bounds = problem.bounds
     two_turns = 2.0 * math.tan(bounds.turn_max / 2)
+    shortest = bounds.leg_min_m + aside * two_turns + share * depth
     return problem._replace(
         terrain=widened(problem.terrain, aside),
         obstacles=obstacles,
@@ -76,8 +79,8 @@ def route_problem(scenario: Scenario, share: float) -> PathProblem:
             x_max_m=bounds.x_max_m - aside,
             y_min_m=bounds.y_min_m + aside,
             y_max_m=bounds.y_max_m - aside,
-            leg_min_m=bounds.leg_min_m + aside * two_turns,
-            leg_max_m=max(bounds.leg_max_m - half_width * two_turns, bounds.leg_min_m + half_width * two_turns),
+            leg_min_m=shortest,
+            leg_max_m=max(bounds.leg_max_m - half_width * two_turns - depth, shortest),
             slope_min=bounds.slope_min * SPARE_SLOPE,
             slope_max=bounds.slope_max * SPARE_SLOPE,
         ),
