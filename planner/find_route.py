@@ -20,8 +20,10 @@ FindPath = Callable[[PathProblem, int], FloatArray | None]
 
 WIDTHS = (1.0, 0.75, 0.5, 0.25, 0.0)
 """Parts of the formation's half-width that are left free on both sides of a route, widest first."""
-SPARE_SLOPE = 0.9
-"""Part of the slope limits that a route may use: who flies on the inside of turns climbs on a shorter path."""
+SPARE_SLOPE = 0.95
+"""Part of the slope limits that a route may use: not all slots fly at its speed."""
+LONG = 3.0
+"""Legs are longer by this than what turns take from those of the slots on the inside, where the limits let them."""
 FILLED = 0.7
 """Part of the straight line that the shortest legs may fill: the fewer waypoints, the longer the legs."""
 
@@ -51,9 +53,10 @@ def route_problem(scenario: Scenario, share: float) -> PathProblem:
     """The problem of a path in the middle of a formation, with a part of its half-width free on both sides.
 
     Obstacles keep that much more distance, except where an end of the route is nearer; the area is that much
-    narrower; the ground is as high as it is anywhere that near. Legs are so long that the inside of two turns, or the
-    last slot's shorter way at the end, leaves the shortest, and the other side no more than the
-    longest. Climbs are those that power allows against the forecast wind.
+    narrower; the ground is as high as it is anywhere that near. Two turns, and at the end the place of the last slot,
+    take something from legs on the inside and give it to those on the outside: the route's legs are so much longer
+    than the shortest and shorter than the longest, and as much less steep. Climbs are those that power allows against
+    the forecast wind.
     """
     assert scenario.route is not None
     route = scenario.route
@@ -70,7 +73,10 @@ def route_problem(scenario: Scenario, share: float) -> PathProblem:
         row[4] = max(row[4], min(row[4] + aside, at_ends))
     bounds = problem.bounds
     two_turns = 2.0 * math.tan(bounds.turn_max / 2)
-    shortest = bounds.leg_min_m + aside * two_turns + share * depth
+    cut = aside * two_turns + depth
+    longest = bounds.leg_max_m - half_width * two_turns - depth
+    shortest = max(bounds.leg_min_m + cut, min(LONG * cut, longest / 2))
+    steeper = shortest / (shortest - cut)
     return problem._replace(
         terrain=widened(problem.terrain, aside),
         obstacles=obstacles,
@@ -80,9 +86,9 @@ def route_problem(scenario: Scenario, share: float) -> PathProblem:
             y_min_m=bounds.y_min_m + aside,
             y_max_m=bounds.y_max_m - aside,
             leg_min_m=shortest,
-            leg_max_m=max(bounds.leg_max_m - half_width * two_turns - depth, shortest),
-            slope_min=bounds.slope_min * SPARE_SLOPE,
-            slope_max=bounds.slope_max * SPARE_SLOPE,
+            leg_max_m=max(longest, shortest),
+            slope_min=SPARE_SLOPE * bounds.slope_min / steeper,
+            slope_max=SPARE_SLOPE * bounds.slope_max / steeper,
         ),
     )
 
