@@ -71,7 +71,8 @@ def plan(
     Args:
         scenario: what to plan.
         seed: of all chance; the scenario's unless given.
-        method: one of `planner.find_path.METHODS`; the scenario's unless given. Slots need no search.
+        method: one of `planner.find_path.METHODS`; the scenario's unless given. Slots need none, and routes are searched
+            by `skein`.
         progress: told of every search, from several threads.
 
     Raises:
@@ -100,7 +101,7 @@ def _compile(scenario: Scenario, method: str) -> None:
         scenario, scenario.vehicles[0], np.empty((0, 2, 4)), scenario.airframe.airspeed_cruise_m_s, NO_MARGINS
     )
     path_cost(problem.corners_m([]), problem, False, np.empty(5))
-    if method == SKEIN:
+    if method == SKEIN or (scenario.route is not None and scenario.route.is_searched):
         skein_path(problem, 1, budget=200, seed=0, report=lambda *_: None)
     elif method != SLOTS:
         evaluate(np.zeros((1, 3)), problem, "graded")
