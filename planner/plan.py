@@ -71,8 +71,8 @@ def plan(
     Args:
         scenario: what to plan.
         seed: of all chance; the scenario's unless given.
-        method: one of `planner.find_path.METHODS`; the scenario's unless given. Slots need none, and routes are searched
-            by `skein`.
+        method: one of `planner.find_path.METHODS`; the scenario's unless given. Slots need none; their route,
+            where it is searched, is so by `skein`.
         progress: told of every search, from several threads.
 
     Raises:
