@@ -1,7 +1,7 @@
 """The best paths that anyone has found: kept with how they were found, beaten when beaten."""
 
 import json
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from functools import lru_cache
 from importlib.metadata import version
@@ -81,9 +81,7 @@ class BestKnown:
         entry = self.paths.get(digest) or self.plans.get(digest)
         return entry.value_km if entry else None
 
-    def offer(
-        self, problem: BenchProblem, interior_m: FloatArray, *, method: str, evaluations: int, seed: int
-    ) -> bool:
+    def offer(self, problem: BenchProblem, interior_m: FloatArray, *, method: str, evaluations: int, seed: int) -> bool:
         """Keep a path (3 waypoints,) if it is feasible and better than what is known; says whether it was."""
         kept_m, value_km = _rounded(problem, interior_m)
         known_km = self.value_km(problem.digest)

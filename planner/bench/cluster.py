@@ -50,7 +50,9 @@ def connect(address: str) -> Cluster:
         try:
             client.wait_for_workers(1, timeout=CONNECT_S)
         except TimeoutError:
-            raise InputError(f"--cluster {address}: no worker within {CONNECT_S:g} s; start one with `dask worker`") from None
+            raise InputError(
+                f"--cluster {address}: no worker within {CONNECT_S:g} s; start one with `dask worker`"
+            ) from None
         workers: dict[str, Any] = client.scheduler_info(n_workers=-1)["workers"]
         for name, worker in workers.items():
             if worker["nthreads"] != 1:
@@ -65,7 +67,7 @@ def connect(address: str) -> Cluster:
 def _client(address: str) -> Iterator[Any]:
     try:
         from distributed import Client
-        from distributed.comm import connect as knock
+        from distributed.comm.core import connect as knock
     except ImportError:
         raise InputError("--cluster: needs dask's distributed; pip install 'skein-gcs[cluster]'") from None
 

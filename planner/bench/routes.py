@@ -41,8 +41,7 @@ def along_m(route_m: FloatArray) -> FloatArray:
     """(n, 2) points of a route at most `STEP_M` apart."""
     lengths = np.hypot(*np.diff(route_m, axis=0).T)
     legs = [
-        np.linspace(p, q, int(length / STEP_M) + 2)
-        for p, q, length in zip(route_m, route_m[1:], lengths, strict=False)
+        np.linspace(p, q, int(length / STEP_M) + 2) for p, q, length in zip(route_m, route_m[1:], lengths, strict=False)
     ]
     return np.vstack(legs)
 
@@ -50,7 +49,8 @@ def along_m(route_m: FloatArray) -> FloatArray:
 def clear_of_route(cylinders: FloatArray, route_m: FloatArray, keep_m: float) -> FloatArray:
     """Those rows x, y, radius, ... whose walls leave a route `keep_m` and some room."""
     points = along_m(route_m)
-    distances = np.hypot(
-        points[:, 0] - cylinders[:, 0, None], points[:, 1] - cylinders[:, 1, None]
-    ).min(axis=1, initial=np.inf)
-    return cylinders[distances > cylinders[:, 2] + keep_m + ROOM_M]
+    distances = np.hypot(points[:, 0] - cylinders[:, 0, None], points[:, 1] - cylinders[:, 1, None]).min(
+        axis=1, initial=np.inf
+    )
+    clear: FloatArray = cylinders[distances > cylinders[:, 2] + keep_m + ROOM_M]
+    return clear

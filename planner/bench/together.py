@@ -32,7 +32,8 @@ def total_km(scenario: Scenario, interiors_m: Sequence[Any]) -> float:
     Args:
         interiors_m: of each vehicle, (3 waypoints,) metres. Each must avoid the earlier ones in time.
     """
-    total, others = 0.0, []
+    total = 0.0
+    others: list[FloatArray] = []
     for vehicle, interior in zip(scenario.vehicles, interiors_m, strict=True):
         problem = vehicle_problem(scenario, vehicle, others)
         flat = np.asarray(interior, dtype=np.float64).reshape(1, -1)
