@@ -1,6 +1,8 @@
 """A run: one folder with a scenario, its plan, its flight and what came of it.
 
 RUN/{scenario.toml, plan.json, endpoints.json, missions/, logs/<sysid>.tlog, truth/<sysid>.f64, metrics.json, figures/}
+
+and terrain.npz, the ground of a scenario with a raster: the file that it names may move.
 """
 
 import contextlib
@@ -13,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from missions.elevation import write_local_raster
 from missions.errors import InputError
 from missions.formats.qgc_plan import write_plan
 from missions.formats.waypoints import write_waypoints
@@ -44,6 +47,11 @@ class RunFolder:
         """Folder of the pictures."""
         return self.path / "figures"
 
+    @property
+    def raster(self) -> Path:
+        """The ground, where the scenario has a raster."""
+        return self.path / "terrain.npz"
+
     def discard_if_empty(self) -> None:
         """Remove the folder again when nothing came of it."""
         with contextlib.suppress(OSError):
@@ -57,6 +65,8 @@ class RunFolder:
         """
         try:
             (self.path / "scenario.toml").write_text(scenario_text, encoding="utf-8")
+            if scenario.raster is not None:
+                write_local_raster(scenario.raster, self.raster)
             plan.save(self.path / "plan.json")
             missions = self.path / "missions"
             missions.mkdir(exist_ok=True)
@@ -77,7 +87,7 @@ class RunFolder:
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
             raise InputError(f"{file}: {reason}; is {self.path} a run? `skein plan` makes one") from None
-        return parse_scenario(text, str(file)), load_plan(self.path / "plan.json")
+        return parse_scenario(text, str(file), self.path, self.raster.absolute()), load_plan(self.path / "plan.json")
 
     def begin_flight(self) -> None:
         """Make room for a flight; an earlier one of this run is removed.

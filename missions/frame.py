@@ -39,6 +39,11 @@ class LocalFrame:
         lon_deg, lat_deg = self._projection(x_m, y_m, inverse=True)
         return float(lat_deg), float(lon_deg)
 
+    def to_geodetic_many(self, x_m: FloatArray, y_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The same for arrays of one shape."""
+        lon_deg, lat_deg = self._projection(x_m, y_m, inverse=True)
+        return lat_deg, lon_deg
+
     def to_e7(self, x_m: float, y_m: float) -> tuple[int, int]:
         """(x, y) in metres to (latitude, longitude) in the wire's 1e-7 degrees."""
         lat_deg, lon_deg = self.to_geodetic(x_m, y_m)

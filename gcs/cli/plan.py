@@ -50,10 +50,10 @@ def plan_run(
     """
     from gcs.cli.planning import search_with_progress
     from gcs.run_folder import make_run_folder
-    from missions.scenario import parse_scenario, read_scenario_text
+    from missions.scenario import parse_scenario, read_scenario_text, scenario_folder
 
     text, label = read_scenario_text(name_or_file)
-    scenario = parse_scenario(text, label)
+    scenario = parse_scenario(text, label, scenario_folder(name_or_file))
     run = make_run_folder(out, scenario.name)
     try:
         result = search_with_progress(scenario, seed, method)

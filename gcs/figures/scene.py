@@ -42,7 +42,7 @@ def draw_scene(plan: FormationPlan, scenario: Scenario, truths: Truths | None, p
         axes: Any = figure.add_axes(FRAME, projection="3d", computed_zorder=False)
         factor = _shape(axes, ground, float(ground.z_m.min()), top_m)
         _ground(axes, ground, factor)
-        _radars(axes, environment)
+        _radars(axes, environment, ground)
         _obstacles(axes, environment, ground)
         colours = style.vehicle_colours(scenario)
         for sysid, points in paths.items():
@@ -97,7 +97,7 @@ def _ground(axes: Any, ground: Ground, factor: int) -> None:
     )  # fmt: skip
 
 
-def _radars(axes: Any, environment: Environment) -> None:
+def _radars(axes: Any, environment: Environment, ground: Ground) -> None:
     """Translucent spheres."""
     rise = np.linspace(0.0, np.pi, 19)
     for radar in environment.radars:
@@ -105,7 +105,7 @@ def _radars(axes: Any, environment: Environment) -> None:
         y = radar.y_m + radar.radius_m * np.outer(np.sin(TURNS), np.sin(rise))
         z = radar.z_m + radar.radius_m * np.outer(np.ones_like(TURNS), np.cos(rise))
         # What of a sphere would lie under the ground is not drawn.
-        z = np.maximum(z, environment.terrain.base_m)
+        z = np.maximum(z, ground.z_m.min())
         axes.plot_surface(x * KM, y * KM, z, color=style.RADAR, alpha=0.22, linewidth=0, zorder=4)
 
 

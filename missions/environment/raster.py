@@ -4,7 +4,7 @@ Beyond the outermost posts the ground goes on level. `raster_height_and_slope` k
 and numba compute bit for bit alike.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,23 @@ if TYPE_CHECKING:
     from missions.environment.terrain import Terrain
 
 FloatArray = npt.NDArray[np.float64]
+
+
+class Raster(NamedTuple):
+    """Heights at the posts of a grid.
+
+    Attributes:
+        posts: (ny, nx) float64, at least 2 by 2, metres above the datum; rows from south to north.
+        x0_m, y0_m: where posts[0, 0] stands.
+        spacing_x_m, spacing_y_m: between neighbouring posts.
+    """
+
+    posts: FloatArray
+    x0_m: float
+    y0_m: float
+    spacing_x_m: float
+    spacing_y_m: float
+
 
 NO_POSTS: FloatArray = np.zeros((0, 0))
 BLOCK_CELLS = 8
@@ -34,7 +51,7 @@ def cell_and_share(position: float, last: int) -> tuple[int, float, float]:
     return cell, position - cell, 1.0
 
 
-def raster_height_and_slope(x_m: float, y_m: float, terrain: "Terrain") -> tuple[float, float, float]:
+def raster_height_and_slope(x_m: float, y_m: float, terrain: "Raster | Terrain") -> tuple[float, float, float]:
     """Height at one point, metres, and its derivatives by x and y; at the seam of two cells those of the later one."""
     posts = terrain.posts
     i, u, along_x = cell_and_share((x_m - terrain.x0_m) / terrain.spacing_x_m, posts.shape[1] - 1)
@@ -49,7 +66,7 @@ def raster_height_and_slope(x_m: float, y_m: float, terrain: "Terrain") -> tuple
     return height, slope_x, slope_y
 
 
-def raster_heights_m(x_m: FloatArray, y_m: FloatArray, terrain: "Terrain") -> FloatArray:
+def raster_heights_m(x_m: FloatArray, y_m: FloatArray, terrain: "Raster | Terrain") -> FloatArray:
     """Heights at arrays of points of any one shape, metres; vectorised with numpy."""
     posts = np.asarray(terrain.posts)
     ny, nx = posts.shape
@@ -82,7 +99,7 @@ def block_tops(posts: FloatArray) -> FloatArray:
     return tops
 
 
-def raster_slope_bound(terrain: "Terrain") -> float:
+def raster_slope_bound(terrain: "Raster | Terrain") -> float:
     """The steepest slope of any cell: in a cell |grad Z|^2 is convex, so it is largest at one of the corners."""
     posts = np.asarray(terrain.posts)
     along_x = (np.diff(posts, axis=1) / terrain.spacing_x_m) ** 2

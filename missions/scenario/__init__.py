@@ -1,6 +1,12 @@
 """Scenarios: what is planned and flown, read from TOML and checked at the door."""
 
-from missions.scenario.load import load_scenario, parse_scenario, read_scenario_text, shipped_scenarios
+from missions.scenario.load import (
+    load_scenario,
+    parse_scenario,
+    read_scenario_text,
+    scenario_folder,
+    shipped_scenarios,
+)
 from missions.scenario.model import Scenario, VehicleModel
 
 __all__ = [
@@ -9,5 +15,6 @@ __all__ = [
     "load_scenario",
     "parse_scenario",
     "read_scenario_text",
+    "scenario_folder",
     "shipped_scenarios",
 ]

@@ -11,7 +11,7 @@ from pydantic_core import ErrorDetails
 
 from missions.errors import InputError
 from missions.scenario.check import problems
-from missions.scenario.model import Scenario
+from missions.scenario.model import Files, Scenario
 
 _REASONS = {
     "missing": "is missing",
@@ -45,7 +45,12 @@ def load_scenario(name_or_file: str) -> Scenario:
         InputError: no such scenario, or it cannot be used; the message names file, key and reason.
     """
     text, label = read_scenario_text(name_or_file)
-    return parse_scenario(text, label)
+    return parse_scenario(text, label, scenario_folder(name_or_file))
+
+
+def scenario_folder(name_or_file: str) -> Path:
+    """The folder that a scenario's raster is looked for in: that of its file."""
+    return Path() if name_or_file in shipped_scenarios() else Path(name_or_file).parent
 
 
 def read_scenario_text(name_or_file: str) -> tuple[str, str]:
@@ -65,12 +70,14 @@ def read_scenario_text(name_or_file: str) -> tuple[str, str]:
         raise InputError(f"{path}: {error.strerror}") from None
 
 
-def parse_scenario(text: str, label: str) -> Scenario:
-    """Check a scenario's TOML text.
+def parse_scenario(text: str, label: str, folder: Path = Path(), raster: Path | None = None) -> Scenario:
+    """Check a scenario's TOML text, and read the raster that it names.
 
     Args:
         text: the file's content.
         label: what to call the file in errors.
+        folder: which the raster's path counts from.
+        raster: an absolute path or one from `folder`, read in place of the one that the scenario names.
 
     Raises:
         InputError: with the first problem (and how many more there are).
@@ -80,7 +87,7 @@ def parse_scenario(text: str, label: str) -> Scenario:
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{label}: not TOML: {error}") from None
     try:
-        scenario = Scenario.model_validate(data)
+        scenario = Scenario.model_validate(data, context=Files(folder=folder, raster=raster))
     except ValidationError as error:
         # What is unknown first: it is often why something else is missing.
         details = sorted(error.errors(), key=lambda detail: detail["type"] != "extra_forbidden")

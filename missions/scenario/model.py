@@ -2,13 +2,17 @@
 
 import math
 from functools import cached_property
-from typing import Annotated, Literal, Self
+from pathlib import Path
+from typing import Annotated, Literal, Self, TypedDict
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationInfo, model_validator
 
 from missions.airframe import Airframe
+from missions.elevation import read_raster
 from missions.environment import Area, Environment, Obstacle, Radar, Terrain, ground_height_m
+from missions.environment.raster import Raster
 from missions.environment.terrain import NO_WAVE
+from missions.errors import InputError
 from missions.frame import LocalFrame
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
@@ -76,11 +80,24 @@ class WaveModel(Keys):
 
 
 class TerrainModel(Keys):
-    """The ground of equation (2); flat at `base_m` without peaks."""
+    """The ground of equation (2), flat at `base_m` without peaks; or real ground from an elevation file."""
 
     base_m: Number = 0.0
     wave: WaveModel | None = None
     peaks: tuple[PeakModel, ...] = ()
+    raster: Annotated[str, Field(min_length=1)] | None = None
+    """A .npz, .tif, .tiff or .hgt file, relative to the scenario's own, or "matplotlib:..." of its sample data. Read
+    as metres AMSL."""
+    spacing_m: Annotated[Number, Field(ge=1)] | None = None
+    """Between the posts that the raster is resampled to; about its own unless given."""
+
+    @model_validator(mode="after")
+    def _one_ground(self) -> Self:
+        if self.raster is not None and (self.base_m != 0.0 or self.wave is not None or self.peaks):
+            raise ValueError("raster takes the place of base_m, wave and peaks; leave them out")
+        if self.raster is None and self.spacing_m is not None:
+            raise ValueError("spacing_m is between the posts of a raster; name one or leave it out")
+        return self
 
 
 class RadarModel(Keys):
@@ -224,6 +241,16 @@ class SearchModel(Keys):
     """Of the penalties (MODEL, section 3)."""
 
 
+class Files(TypedDict):
+    """Where the files are that a scenario names: the validation context of `Scenario`.
+
+    `raster` is read in place of the one that is named, when it is not None.
+    """
+
+    folder: Path
+    raster: Path | None
+
+
 class Scenario(Keys):
     """A whole scenario file."""
 
@@ -242,6 +269,29 @@ class Scenario(Keys):
     wind: WindModel = WindModel()
     limits: LimitsModel
     search: SearchModel = SearchModel()
+    _raster: Raster | None = PrivateAttr(None)
+
+    @model_validator(mode="after")
+    def _read_raster(self, info: ValidationInfo) -> Self:
+        name, spacing_m = self.terrain.raster, self.terrain.spacing_m
+        if name is not None:
+            files: Files = info.context or Files(folder=Path(), raster=None)
+            try:
+                self._raster = read_raster(
+                    str(files["raster"] or name),
+                    files["folder"],
+                    self.frame,
+                    Area(*self.area.x_m, *self.area.y_m, *self.area.z_m),
+                    spacing_m,
+                )
+            except InputError as error:
+                raise ValueError(f"terrain.raster: {error}") from None
+        return self
+
+    @property
+    def raster(self) -> Raster | None:
+        """The real ground, where there is one: heights above z = 0, local frame."""
+        return self._raster
 
     @cached_property
     def frame(self) -> LocalFrame:
@@ -257,6 +307,8 @@ class Scenario(Keys):
             wave=(wave.amplitude_m, wave.a, wave.b, wave.c, wave.d, wave.e, wave.f, wave.g) if wave else NO_WAVE,
             peaks=[(p.height_m, p.x_m, p.y_m, p.decline_x_m, p.decline_y_m) for p in self.terrain.peaks],
         )
+        if self.raster is not None:
+            terrain = terrain._replace(**self.raster._asdict())
         return Environment(
             area=Area(*self.area.x_m, *self.area.y_m, *self.area.z_m),
             terrain=terrain,

@@ -22,33 +22,34 @@ def least_height_above_raster_m(p: Any, q: Any, z0_m: float, z1_m: float, t0: fl
         t0, t1: the part that counts, 0 <= t0 <= t1 <= 1.
         terrain: with posts.
     """
-    rows, columns = terrain.tops.shape
-    across = 1.0 / (BLOCK_CELLS * terrain.spacing_x_m), 1.0 / (BLOCK_CELLS * terrain.spacing_y_m)
-    u, v = (p[0] - terrain.x0_m) * across[0], (p[1] - terrain.y0_m) * across[1]
-    du, dv, dz = (q[0] - p[0]) * across[0], (q[1] - p[1]) * across[1], z1_m - z0_m
-    i, j = _cell(u + t0 * du, 0, columns - 1), _cell(v + t0 * dv, 0, rows - 1)
-    out_u, out_v = _way_out(u, du, i, 0, columns - 1), _way_out(v, dv, j, 0, rows - 1)
-    least = math.inf
+    posts, tops = terrain.posts, terrain.tops
+    last_i, last_j = tops.shape[1] - 1, tops.shape[0] - 1
+    width, height = BLOCK_CELLS * terrain.spacing_x_m, BLOCK_CELLS * terrain.spacing_y_m
+    u, v, dz = (p[0] - terrain.x0_m) / width, (p[1] - terrain.y0_m) / height, z1_m - z0_m
+    du, dv = (q[0] - p[0]) / width, (q[1] - p[1]) / height
+    i, j = _cell(u + t0 * du, 0, last_i), _cell(v + t0 * dv, 0, last_j)
+    out_u, out_v = _way_out(u, du, i, 0, last_i), _way_out(v, dv, j, 0, last_j)
+    line = u * BLOCK_CELLS, v * BLOCK_CELLS, z0_m, du * BLOCK_CELLS, dv * BLOCK_CELLS, dz
+    least: float = min(_least_over_cells_m(line, t0, t0, posts), _least_over_cells_m(line, t1, t1, posts))
     start = t0
     while True:
         end = max(start, _first(out_u, out_v, t1))
-        if z0_m + (start if dz > 0.0 else end) * dz - terrain.tops[j, i] < least:
-            line = u * BLOCK_CELLS, v * BLOCK_CELLS, z0_m, du * BLOCK_CELLS, dv * BLOCK_CELLS, dz
-            least = min(least, _least_over_cells_m(line, start, end, terrain.posts))
+        if z0_m + (start if dz > 0.0 else end) * dz - tops[j, i] < least:
+            least = min(least, _least_over_cells_m(line, start, end, posts))
         if end >= t1:
             return least
         if out_u <= out_v:
             i += 1 if du > 0.0 else -1
-            out_u = _way_out(u, du, i, 0, columns - 1)
+            out_u = _way_out(u, du, i, 0, last_i)
         else:
             j += 1 if dv > 0.0 else -1
-            out_v = _way_out(v, dv, j, 0, rows - 1)
+            out_v = _way_out(v, dv, j, 0, last_j)
         start = end
 
 
 @jit
 def _least_over_cells_m(line: Any, t0: float, t1: float, posts: Any) -> float:
-    """The same, cell by cell, of a line (u, v, z) + t (du, dv, dz), u and v in cells.
+    """The same, cell by cell, for a line (u, v, z) + t (du, dv, dz) with u and v in cells.
 
     The level ground beyond the outermost posts is cells -1 and n - 1, whose two sides are the same posts.
     """
@@ -56,7 +57,7 @@ def _least_over_cells_m(line: Any, t0: float, t1: float, posts: Any) -> float:
     last_i, last_j = posts.shape[1] - 1, posts.shape[0] - 1
     i, j = _cell(u + t0 * du, -1, last_i), _cell(v + t0 * dv, -1, last_j)
     out_u, out_v = _way_out(u, du, i, -1, last_i), _way_out(v, dv, j, -1, last_j)
-    least = math.inf
+    least: float = math.inf
     start = t0
     while True:
         end = max(start, _first(out_u, out_v, t1))
@@ -90,7 +91,7 @@ def _cell(position: float, first: int, last: int) -> int:
         return first
     if position >= last:
         return last
-    return int(math.floor(position))
+    return math.floor(position)
 
 
 @jit
@@ -105,7 +106,7 @@ def _way_out(position: float, rate: float, cell: int, first: int, last: int) -> 
 
 @jit
 def _first(out_u: float, out_v: float, t1: float) -> float:
-    """The smallest of three, of which the first two may be no numbers."""
+    """The first of three times; a position that is no number has no way out."""
     end = t1
     if out_u < end:
         end = out_u

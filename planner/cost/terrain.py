@@ -29,7 +29,8 @@ def leg_clearance_m(
     Both in metres; the shortfall is negative where there is more than wanted.
     """
     if len(terrain.posts) > 0:
-        return _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
+        exact: tuple[float, float] = _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
+        return exact
     base_m, wave, peaks = terrain.base_m, terrain.wave, terrain.peaks
     steps = _steps(p, q, wave, peaks)
     if s0_m < climb_out_m:  # the ramp's end is a corner of what is wanted, which curvature knows nothing of
