@@ -74,8 +74,9 @@ import numba  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]  # if imported before
 
-jit: Callable[..., Any] = numba.njit(cache=True, error_model="python")
-"""Compile a kernel's function: cached, division and indices as in Python, no fast mathematics."""
+jit: Callable[..., Any] = numba.njit(cache=True, error_model="python", nogil=True)
+"""Compile a kernel's function: cached, division and indices as in Python, no fast mathematics. Threads run it side by
+side."""
 parallel_jit: Callable[..., Any] = numba.njit(cache=True, error_model="python", parallel=True)
 """The same, with `prange` over all cores."""
 prange = numba.prange

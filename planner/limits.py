@@ -24,6 +24,15 @@ def power_share(airspeed_m_s: float, sin_climb: float, airframe: Airframe) -> fl
     return (drag_n(airspeed_m_s, lift, airframe) + weight * sin_climb) / thrust_max_n(airspeed_m_s, airframe)
 
 
+def flyable(airspeed_m_s: float, climb_m_s: float, slowest_m_s: float, fastest_m_s: float, airframe: Airframe) -> bool:
+    """Whether a leg may be planned at an airspeed and a climb rate; kept to the dialect that numba compiles alike."""
+    return (
+        slowest_m_s <= airspeed_m_s <= fastest_m_s
+        and airframe.climb_rate_min_m_s <= climb_m_s <= airframe.climb_rate_max_m_s
+        and power_share(airspeed_m_s, climb_m_s / airspeed_m_s, airframe) <= POWER_SHARE
+    )
+
+
 def slope_range(scenario: Scenario, ground_speed_m_s: float) -> tuple[float, float]:
     """Steepest descent and climb, dz/ds, at a ground speed in still air.
 

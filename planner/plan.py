@@ -16,8 +16,9 @@ from planner.cost.kernel import INFEASIBLE_KM, evaluate
 from planner.cost.problem import NO_MARGINS, PathProblem, path_problem
 from planner.find_path import SEARCHES, PathFound, find_path, require_feasible
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
+from planner.limits import airspeed_range_m_s
 from planner.loiter import Circle, stack
-from planner.schedule import Schedule, common_arrival
+from planner.schedule import Schedule, common_arrival, flyable_at
 from planner.slots import slot_path_m, slot_schedule
 from planner.verify import VerificationReport, require, verify
 from planner.write_mission import write_mission
@@ -85,12 +86,14 @@ def plan(
 
 
 def _compile(scenario: Scenario) -> None:
-    """Have the kernel compiled, or loaded from its cache, by one use."""
+    """Have the kernels compiled, or loaded from their cache, by one use."""
     problem = path_problem(
         scenario, scenario.vehicles[0], np.empty((0, 2, 4)), scenario.airframe.airspeed_cruise_m_s, NO_MARGINS
     )
     evaluate(np.zeros((1, 3)), problem, "graded")
     with_progress(problem.corners_m([]), problem)
+    one, airframe = np.ones(1), scenario.airframe.airframe()
+    flyable_at(one, one, one, one, scenario.wind.forecast_m_s, airspeed_range_m_s(scenario), airframe)
 
 
 def _searched(scenario: Scenario, seed: int, method: str, progress: Progress) -> FormationPlan:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,9 +13,12 @@ from missions.errors import InputError
 from missions.reference import airspeed_on_track, fillet
 from missions.reference.reference import fillet_radius_m
 from missions.scenario import Scenario
-from planner.limits import POWER_SHARE, airspeed_range_m_s, power_share
+from planner.compiled import compile_shared, jit
+from planner.limits import POWER_SHARE, airspeed_range_m_s, flyable, power_share
 
 FloatArray = npt.NDArray[np.float64]
+
+_airspeed_on_track, _flyable = compile_shared(airspeed_on_track), compile_shared(flyable)
 
 ROUNDS = 5
 """The fillets' radius follows from the speeds and these, through the arcs, weakly from the radius: a fixed point that
@@ -88,9 +92,20 @@ def common_arrival(names: Sequence[str], paths: Sequence[FloatArray], scenario: 
     slowest, fastest = airspeed_range_m_s(scenario)
     blowing = math.hypot(*wind)
     durations = longest / np.arange(fastest + blowing, max(slowest - blowing, 1.0), -SPEED_STEP_M_S)
-    faults_at = {float(duration): faults(float(duration)) for duration in durations}
-    possible = [duration for duration, found in faults_at.items() if not found]
+    legs = np.concatenate([np.diff(path, axis=0) for path in paths])
+    possible = durations[
+        flyable_at(
+            longest / cruise / durations,
+            np.concatenate([draft.ground_m_s for draft in at_cruise]),
+            np.concatenate([draft.slopes for draft in at_cruise]),
+            np.arctan2(legs[:, 1], legs[:, 0]),
+            wind,
+            (slowest, fastest),
+            scenario.airframe.airframe(),
+        )
+    ].tolist()
     if not possible:
+        faults_at = {duration: faults(duration) for duration in durations.tolist()}
         duration, found = min(faults_at.items(), key=lambda item: (len(item[1]), abs(item[0] - longest / cruise)))
         raise InputError(
             f"{scenario.name}: {found[0]}, to arrive with the others after {duration:.0f} s; "
@@ -99,6 +114,22 @@ def common_arrival(names: Sequence[str], paths: Sequence[FloatArray], scenario: 
     edge = WINDOW_EDGE * (max(possible) - min(possible))
     duration = min(max(longest / cruise, min(possible) + edge), max(possible) - edge)
     return [even_schedule(path, duration, wind) for path in paths]
+
+
+@jit
+def flyable_at(
+    speedups: Any, ground_m_s: Any, slopes: Any, headings: Any, wind_m_s: Any, airspeeds_m_s: Any, airframe: Any
+) -> Any:
+    """At which of the speed-ups (n,) all legs (m,) are `flyable`; the first that is not settles it."""
+    possible = np.ones(len(speedups), dtype=np.bool_)
+    for i in range(len(speedups)):
+        for k in range(len(ground_m_s)):
+            ground = ground_m_s[k] * speedups[i]
+            airspeed = _airspeed_on_track(ground, slopes[k], headings[k], wind_m_s)
+            if not _flyable(airspeed, ground * slopes[k], airspeeds_m_s[0], airspeeds_m_s[1], airframe):
+                possible[i] = False
+                break
+    return possible
 
 
 def leg_faults(schedule: Schedule, scenario: Scenario) -> Iterator[str]:

@@ -1,9 +1,9 @@
-"""Whether a plan keeps to everything asked of it, by other means than the search: dense samples of the filleted paths
-that the missions, as the wire carries them, lead to."""
+"""Whether a plan keeps to everything asked of it, by other means than the search: on the filleted paths that the
+missions, as the wire carries them, lead to, at every instant. Figures are proven bounds (`planner.proof`)."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 import numpy.typing as npt
@@ -14,10 +14,15 @@ from missions.reference import Reference
 from missions.scenario import Scenario
 from planner import checks
 from planner.formation_plan import FormationPlan, UavPlan
+from planner.proof.flight import SpareSpeeds, spare_speeds
+from planner.proof.separation import Separations, separations
+from planner.proof.surroundings import Surroundings, surroundings
+from planner.proof.tracks import Tracks
 
 FloatArray = npt.NDArray[np.float64]
 
 STEP_S = 0.5
+"""Between the samples by which time within radars is counted: a figure, not a limit."""
 
 
 @dataclass(frozen=True)
@@ -25,8 +30,9 @@ class UavReport:
     """What one UAV's path comes to. Heights and distances are the least, angles the largest along it.
 
     Attributes:
-        wall_m: from any obstacle; infinite where there is none.
-        separation_m: from any other UAV at the same time; infinite for a single one.
+        clearance_m, wall_m, separation_m: above ground once airborne; from any obstacle, infinite where there is
+            none; from any other UAV at the same time, infinite for a single one. Proven never to be less, and at most
+            `planner.proof.bracket.RESOLUTION_M` below the truth.
         radar_exposure_s: time within any radar's radius.
     """
 
@@ -37,6 +43,7 @@ class UavReport:
     wall_m: float
     separation_m: float
     turn_deg: float
+    bank_deg: float
     climb_deg: float
     descent_deg: float
     leg_min_m: float
@@ -91,30 +98,44 @@ def verify(plan: FormationPlan, scenario: Scenario) -> VerificationReport:
     if planned != wanted:
         raise InputError(f"plan: is for vehicles {planned}, scenario {scenario.name} has {wanted}; plan it again")
     vehicles = {vehicle.sysid: vehicle for vehicle in scenario.vehicles}
-    references = plan.references(scenario)
-    nearest, violations = _separations(plan, references, scenario)
+    by_sysid = plan.references(scenario)
+    references = [by_sysid[uav.sysid] for uav in plan.uavs]
+    tracks = Tracks(references)
+    apart = separations(tracks, scenario.limits.separation_m)
+    around = surroundings(tracks, references, scenario)
+    spare = spare_speeds(tracks, scenario)
+    violations = _too_near(plan, references, apart, scenario.limits.separation_m)
     uavs = []
-    for uav in plan.uavs:
-        report, faults = _uav(uav, references[uav.sysid], nearest[uav.sysid], scenario)
-        faults += checks.ends(uav.mission, references[uav.sysid], vehicles[uav.sysid], scenario)
+    for row, (uav, reference) in enumerate(zip(plan.uavs, references, strict=True)):
+        path = checks.flown(uav.mission, reference, row, scenario)
+        report, faults = _uav(uav, path, tracks, apart, around, spare, scenario)
+        faults += checks.ends(uav.mission, reference, vehicles[uav.sysid], scenario)
         uavs.append(report)
         violations += [Violation(uav.sysid, f"{uav.name}: {fault}") for fault in faults]
     order = {uav.sysid: i for i, uav in enumerate(plan.uavs)}
     return VerificationReport(tuple(uavs), tuple(sorted(violations, key=lambda violation: order[violation.sysid])))
 
 
-def _uav(uav: UavPlan, reference: Reference, nearest_m: float, scenario: Scenario) -> tuple[UavReport, list[str]]:
-    path = checks.sample(uav.mission, reference, scenario)
-    limits = scenario.limits
-    clearance, faults = checks.clearance(path, scenario)
-    wall, wall_faults = checks.walls(path, scenario)
+def _uav(
+    uav: UavPlan,
+    path: checks.Flown,
+    tracks: Tracks,
+    apart: Separations,
+    around: Surroundings,
+    spare: SpareSpeeds,
+    scenario: Scenario,
+) -> tuple[UavReport, list[str]]:
+    limits, reference = scenario.limits, path.reference
+    clearance, faults = checks.clearance(path, around, scenario)
+    wall, wall_faults = checks.walls(path, around, scenario)
     turn, turn_faults = checks.turns(path, limits.turn_max_deg)
+    bank, bank_faults = checks.banks(path, tracks.fastest_m_s(path.row), scenario)
     climb, descent, climb_faults = checks.climbs(path, limits.climb_max_deg)
     shortest, longest, leg_faults = checks.legs(path, limits.leg_min_m, limits.leg_max_m)
     slowest, fastest, share, speed_faults = checks.speeds(path, scenario)
-    highest, box_faults = checks.box(path, scenario)
-    faults += wall_faults + turn_faults + climb_faults + leg_faults + speed_faults + box_faults + checks.fillets(path)
-    faults += checks.loiter(reference, scenario)
+    highest, box_faults = checks.box(path, around, scenario)
+    faults += wall_faults + turn_faults + bank_faults + climb_faults + leg_faults + speed_faults + box_faults
+    faults += checks.instants(path, spare, scenario) + checks.fillets(path) + checks.loiter(path, around, scenario)
     positions = reference.positions(np.arange(0.0, reference.duration_s, STEP_S))
     report = UavReport(
         sysid=uav.sysid,
@@ -122,8 +143,9 @@ def _uav(uav: UavPlan, reference: Reference, nearest_m: float, scenario: Scenari
         arrival_s=reference.duration_s,
         clearance_m=clearance,
         wall_m=wall,
-        separation_m=nearest_m,
+        separation_m=float(apart.nearest_m[path.row]),
         turn_deg=turn,
+        bank_deg=bank,
         climb_deg=climb,
         descent_deg=descent,
         leg_min_m=shortest,
@@ -137,32 +159,18 @@ def _uav(uav: UavPlan, reference: Reference, nearest_m: float, scenario: Scenari
     return report, faults
 
 
-def _separations(
-    plan: FormationPlan, references: dict[int, Reference], scenario: Scenario
-) -> tuple[dict[int, float], list[Violation]]:
-    """Least distance of each UAV from any other at the same time, and the later UAV's violation of each pair.
-
-    Between samples the relative motion counts as a straight line. A pair counts until the first of it arrives.
-    """
-    wanted = scenario.limits.separation_m - checks.TOLERANCE_M
-    times = {sysid: np.append(np.arange(0.0, r.duration_s, STEP_S), r.duration_s) for sysid, r in references.items()}
-    nearest = dict.fromkeys(references, math.inf)
+def _too_near(
+    plan: FormationPlan, references: Sequence[Reference], apart: Separations, wanted_m: float
+) -> list[Violation]:
+    """The later UAV's violation of each pair that comes too near."""
     violations = []
-    for first, second in combinations(plan.uavs, 2):
-        t = min(times[first.sysid], times[second.sysid], key=lambda times: float(times[-1]))
-        positions = references[first.sysid].positions(t)
-        apart = positions - references[second.sysid].positions(t)
-        moved = np.diff(apart, axis=0)
-        squares = np.maximum(np.sum(moved**2, axis=1), 1e-12)
-        part = np.clip(-np.sum(apart[:-1] * moved, axis=1) / squares, 0.0, 1.0)
-        distances = np.linalg.norm(apart[:-1] + part[:, None] * moved, axis=1)
-        k = int(np.argmin(distances))
-        for uav in (first, second):
-            nearest[uav.sysid] = min(nearest[uav.sysid], float(distances[k]))
-        if distances[k] < wanted:
-            text = (
-                f"{second.name}: {distances[k]:.0f} m from {first.name} after {t[k]:.0f} s "
-                f"at {checks.place(positions[k])}, limits.separation_m is {scenario.limits.separation_m:g}"
-            )
-            violations.append(Violation(second.sysid, text))
-    return nearest, violations
+    for k in np.flatnonzero(apart.of_pair.low < wanted_m - checks.TOLERANCE_M):
+        first, second = (plan.uavs[row] for row in apart.pairs[k])
+        t_s = float(apart.of_pair.at[k])
+        where = checks.place(references[apart.pairs[k, 0]].positions(np.array(t_s)))
+        text = (
+            f"{second.name}: {apart.of_pair.value[k]:.0f} m from {first.name} after {t_s:.0f} s at {where}, "
+            f"limits.separation_m is {wanted_m:g}"
+        )
+        violations.append(Violation(second.sysid, text))
+    return violations

@@ -96,6 +96,9 @@ def fillet(corners_m: FloatArray, radius_m: float) -> FilletedPath:
     headings = np.arctan2(legs[:, 1], legs[:, 0])
     turns = (np.diff(headings) + np.pi) % (2 * np.pi) - np.pi
 
+    # Plain numbers from here on: numpy's take several times as long one by one.
+    across, heading, turn = lengths.tolist(), headings.tolist(), turns.tolist()
+    at, direction = points.tolist(), (legs / lengths[:, None]).tolist()
     rows: list[tuple[float, float, float, float, float]] = []
     kept_s = [0.0]
     kept_radius = [math.inf]
@@ -104,23 +107,20 @@ def fillet(corners_m: FloatArray, radius_m: float) -> FilletedPath:
     last = len(legs) - 1
     for i in range(len(legs)):
         cut_after, radius = 0.0, math.inf
-        if i < last and turns[i] != 0.0:
-            room = min(
-                lengths[i] if i == 0 else lengths[i] / 2, lengths[i + 1] if i + 1 == last else lengths[i + 1] / 2
-            )
-            half_tangent = math.tan(abs(turns[i]) / 2)
+        if i < last and turn[i] != 0.0:
+            room = min(across[i] if i == 0 else across[i] / 2, across[i + 1] if i + 1 == last else across[i + 1] / 2)
+            half_tangent = math.tan(abs(turn[i]) / 2)
             radius = min(radius_m, room / half_tangent)
             cut_after = radius * half_tangent if radius >= SHARPEST_ARC_M else 0.0
-        direction = legs[i] / lengths[i]
-        straight = lengths[i] - cut_before - cut_after
-        start = points[i] + direction * cut_before
+        ahead_x, ahead_y = direction[i]
+        straight = across[i] - cut_before - cut_after
         if straight > 0.0 or not rows:
-            rows.append((s, float(start[0]), float(start[1]), float(headings[i]), 0.0))
+            rows.append((s, at[i][0] + ahead_x * cut_before, at[i][1] + ahead_y * cut_before, heading[i], 0.0))
         s += max(straight, 0.0)
         if cut_after > 0.0:
-            entry = points[i + 1] - direction * cut_after
-            arc = radius * abs(turns[i])
-            rows.append((s, float(entry[0]), float(entry[1]), float(headings[i]), math.copysign(1 / radius, turns[i])))
+            entry_x, entry_y = at[i + 1][0] - ahead_x * cut_after, at[i + 1][1] - ahead_y * cut_after
+            arc = radius * abs(turn[i])
+            rows.append((s, entry_x, entry_y, heading[i], math.copysign(1 / radius, turn[i])))
             kept_s.append(s + arc / 2)
             s += arc
         else:
@@ -128,7 +128,7 @@ def fillet(corners_m: FloatArray, radius_m: float) -> FilletedPath:
         kept_radius.append(radius if radius >= SHARPEST_ARC_M else 0.0)
         cut_before = cut_after
     # Past the end the path goes on straight, whatever the last segment was.
-    rows.append((s, float(points[-1][0]), float(points[-1][1]), float(headings[-1]), 0.0))
+    rows.append((s, at[-1][0], at[-1][1], heading[-1], 0.0))
 
     corner_of = np.searchsorted(kept, np.arange(len(corners_m)), side="right") - 1
     return FilletedPath(

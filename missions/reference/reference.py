@@ -96,6 +96,10 @@ class Reference:
         z, _ = quadratics_at(s_m, self.altitude)
         return np.stack([x, y, z], axis=-1)
 
+    def slopes(self, s_m: FloatArray) -> FloatArray:
+        """dz/ds at arc lengths (...)."""
+        return quadratics_at(s_m, self.altitude)[1]
+
     def arc_lengths(self, t_s: FloatArray) -> FloatArray:
         """s_ref(t) at times (...); past the arrival it goes on at the last speed."""
         return quadratics_at(t_s, self.schedule)[0]

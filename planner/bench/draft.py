@@ -34,6 +34,7 @@ BOUNDS = Bounds(
     slope_max=SLOPE,
     clearance_m=CLEARANCE_M,
     climb_out_m=CLIMB_OUT_M,
+    length_min_m=0.0,
     fillet_radius_m=253.0,
     collision_penalty_km=100.0,
     terrain_penalty_km=100.0,

@@ -37,7 +37,7 @@ def broken_limits(corners: Any, bounds: Any, arcs: Any) -> tuple[int, float]:
 
     dx, dy = corners[1, 0] - corners[0, 0], corners[1, 1] - corners[0, 1]
     across = max(math.sqrt(dx * dx + dy * dy), SHORT_M)
-    trim_before = 0.0
+    trim_before = flown = 0.0
     for k in range(legs):
         room = across if k == 0 else across / 2.0
         turn = trim = tangent = 0.0
@@ -54,6 +54,7 @@ def broken_limits(corners: Any, bounds: Any, arcs: Any) -> tuple[int, float]:
         dz = corners[k + 1, 2] - corners[k, 2]
         length = math.sqrt(across * across + dz * dz)
         arcs[k] = max(across - trim_before - trim, SHORT_M)
+        flown += arcs[k]
         slope = dz / arcs[k]
         for over in (
             1.0 - length / bounds.leg_min_m,
@@ -67,6 +68,9 @@ def broken_limits(corners: Any, bounds: Any, arcs: Any) -> tuple[int, float]:
                 violations += 1
                 excess += over
         across, trim_before = across_next, trim
+    if flown < bounds.length_min_m:
+        violations += 1
+        excess += 1.0 - flown / bounds.length_min_m
     return violations, excess
 
 

@@ -77,12 +77,12 @@ def _evaluate(
         corners[-1] = problem.target_m
         for k in range(1, len(corners) - 1):
             corners[k] = interiors[i, 3 * k - 3 : 3 * k]
-        costs[i] = _path_cost(corners, problem, graded, terms[i])
+        costs[i] = path_cost(corners, problem, graded, terms[i])
 
 
 @jit
-def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
-    """f of one path (3); fills in its five terms."""
+def path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
+    """f of one path of (n + 1, 3) corners (3), kilometres; fills in its five terms."""
     bounds, terrain = problem.bounds, problem.terrain
     legs = len(corners) - 1
     arcs = np.empty(legs)
@@ -99,7 +99,7 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
         dx, dy, dz = q[0] - p[0], q[1] - p[1], q[2] - p[2]
         length += math.sqrt(dx * dx + dy * dy + dz * dz)
 
-        least, shortfall = leg_clearance_m(
+        least, _, shortfall, _ = leg_clearance_m(
             p, q, passed[k], passed[k + 1], terrain, bounds.clearance_m, bounds.climb_out_m
         )
         least_sum += least
@@ -120,7 +120,7 @@ def _path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
 
         start, end = passed[k] / passed[legs], passed[k + 1] / passed[legs]
         for i in range(len(problem.others)):
-            distance, other_legs[i] = least_separation_m(p, q, start, end, problem.others[i], other_legs[i])
+            distance, _, other_legs[i] = least_separation_m(p, q, start, end, problem.others[i], other_legs[i])
             missing = problem.separations_m[i] - distance
             if missing > 0.0:
                 collision += 1.0 + (missing / 1000.0 if graded else 0.0)

@@ -14,6 +14,16 @@ STEPS = 40
 def least_wall_distance_m(p: Any, q: Any, obstacle: Any) -> float:
     """Least signed distance of the leg from p to q to an obstacle's surface, metres; negative inside.
 
+    Infinite as soon as it is known to be more than the distance to keep, obstacle[4].
+    """
+    least: float = wall_distance_and_place(p, q, obstacle)[0]
+    return least
+
+
+@jit
+def wall_distance_and_place(p: Any, q: Any, obstacle: Any) -> tuple[float, float]:
+    """`least_wall_distance_m`, and the part of the leg after which it is reached.
+
     Infinite as soon as it is known to be more than the distance to keep, obstacle[4]. The signed distance to a convex
     body is convex along a line, so a golden-section search cannot be led astray.
     """
@@ -23,7 +33,7 @@ def least_wall_distance_m(p: Any, q: Any, obstacle: Any) -> float:
     nearest = min(1.0, max(0.0, (ax * dx + ay * dy) / across2)) if across2 > 0.0 else 0.0
     beside = math.hypot(ax - nearest * dx, ay - nearest * dy) - obstacle[2]
     if max(beside, min(p[2], q[2]) - obstacle[3]) > obstacle[4]:
-        return math.inf
+        return math.inf, nearest
     low, high = 0.0, 1.0
     t0, t1 = 1.0 - GOLDEN, GOLDEN
     d0 = _signed_distance_m(t0 * dx - ax, t0 * dy - ay, p[2] + t0 * dz, obstacle)
@@ -37,8 +47,7 @@ def least_wall_distance_m(p: Any, q: Any, obstacle: Any) -> float:
             low, t0, d0 = t0, t1, d1
             t1 = low + GOLDEN * (high - low)
             d1 = _signed_distance_m(t1 * dx - ax, t1 * dy - ay, p[2] + t1 * dz, obstacle)
-    least: float = min(d0, d1)
-    return least
+    return (d0, t0) if d0 <= d1 else (d1, t1)
 
 
 @jit

@@ -41,7 +41,8 @@ SLOPE_MARGIN = 0.99
 class Bounds(NamedTuple):
     """Limits of a path: the box (1), the constraints (12), clearance, and the penalties of (5) and (9). SI, radians.
 
-    `clearance_m` is wanted from `climb_out_m` along the path on; before, it ramps up from 0 at the origin.
+    `clearance_m` is wanted from `climb_out_m` along the path on; before, it ramps up from 0 at the origin. The flown
+    length is at least `length_min_m`: a UAV with a short way takes a longer one to arrive with the others.
     """
 
     x_min_m: float
@@ -57,6 +58,7 @@ class Bounds(NamedTuple):
     slope_max: float
     clearance_m: float
     climb_out_m: float
+    length_min_m: float
     fillet_radius_m: float
     collision_penalty_km: float
     terrain_penalty_km: float
@@ -91,7 +93,12 @@ class PathProblem(NamedTuple):
 
 
 def path_problem(
-    scenario: Scenario, vehicle: VehicleModel, others: FloatArray, expected_ground_speed_m_s: float, margins: Margins
+    scenario: Scenario,
+    vehicle: VehicleModel,
+    others: FloatArray,
+    expected_ground_speed_m_s: float,
+    margins: Margins,
+    length_min_m: float = 0.0,
 ) -> PathProblem:
     """The problem of one vehicle.
 
@@ -101,6 +108,7 @@ def path_problem(
         others: as in `PathProblem`, from `with_progress`.
         expected_ground_speed_m_s: at which the limits of climb are taken.
         margins: beyond the scenario's limits.
+        length_min_m: least length flown.
     """
     origin, target = np.array(scenario.origin_m(vehicle)), np.array(scenario.target_m(vehicle))
     ends = np.array([origin, target])
@@ -136,6 +144,7 @@ def path_problem(
             limits.clearance_m, margins.clearance_m, target[2] - ground_height_m(target[0], target[1], terrain)
         ),
         climb_out_m=limits.climb_out_m,
+        length_min_m=length_min_m,
         fillet_radius_m=fillet_radius_m(fastest),
         collision_penalty_km=limits.collision_penalty_km,
         terrain_penalty_km=limits.terrain_penalty_km,

@@ -13,8 +13,10 @@ from planner.compiled import jit
 
 
 @jit
-def least_height_above_raster_m(p: Any, q: Any, z0_m: float, z1_m: float, t0: float, t1: float, terrain: Any) -> float:
-    """Least height above the ground on the part of a line from t0 to t1, metres.
+def least_height_above_raster_m(
+    p: Any, q: Any, z0_m: float, z1_m: float, t0: float, t1: float, terrain: Any
+) -> tuple[float, float]:
+    """Least height above the ground on the part of a line from t0 to t1, metres, and the t at which it is reached.
 
     Args:
         p, q: the line's ends in plan, at t = 0 and t = 1.
@@ -30,14 +32,19 @@ def least_height_above_raster_m(p: Any, q: Any, z0_m: float, z1_m: float, t0: fl
     i, j = _cell(u + t0 * du, 0, last_i), _cell(v + t0 * dv, 0, last_j)
     out_u, out_v = _way_out(u, du, i, 0, last_i), _way_out(v, dv, j, 0, last_j)
     line = u * BLOCK_CELLS, v * BLOCK_CELLS, z0_m, du * BLOCK_CELLS, dv * BLOCK_CELLS, dz
-    least: float = min(_least_over_cells_m(line, t0, t0, posts), _least_over_cells_m(line, t1, t1, posts))
+    least, place = _least_over_cells_m(line, t0, t0, posts)
+    at_end, _ = _least_over_cells_m(line, t1, t1, posts)
+    if at_end < least:
+        least, place = at_end, t1
     start = t0
     while True:
         end = max(start, _first(out_u, out_v, t1))
         if z0_m + (start if dz > 0.0 else end) * dz - tops[j, i] < least:
-            least = min(least, _least_over_cells_m(line, start, end, posts))
+            inside, t = _least_over_cells_m(line, start, end, posts)
+            if inside < least:
+                least, place = inside, t
         if end >= t1:
-            return least
+            return least, place
         if out_u <= out_v:
             i += 1 if du > 0.0 else -1
             out_u = _way_out(u, du, i, 0, last_i)
@@ -48,7 +55,7 @@ def least_height_above_raster_m(p: Any, q: Any, z0_m: float, z1_m: float, t0: fl
 
 
 @jit
-def _least_over_cells_m(line: Any, t0: float, t1: float, posts: Any) -> float:
+def _least_over_cells_m(line: Any, t0: float, t1: float, posts: Any) -> tuple[float, float]:
     """The same, cell by cell, for a line (u, v, z) + t (du, dv, dz) with u and v in cells.
 
     The level ground beyond the outermost posts is cells -1 and n - 1, whose two sides are the same posts.
@@ -70,11 +77,17 @@ def _least_over_cells_m(line: Any, t0: float, t1: float, posts: Any) -> float:
         rate = dz - slope_u * du - slope_v * dv - twist * (a * dv + b * du)
         bend = -twist * du * dv
         length = end - start
-        least = min(least, height, height + length * (rate + length * bend))
+        if height < least:
+            least, place = height, start
+        at_end = height + length * (rate + length * bend)
+        if at_end < least:
+            least, place = at_end, end
         if rate < 0.0 and rate + 2.0 * bend * length > 0.0:
-            least = min(least, height - rate * rate / (4.0 * bend))
+            at_vertex = height - rate * rate / (4.0 * bend)
+            if at_vertex < least:
+                least, place = at_vertex, start - rate / (2.0 * bend)
         if end >= t1:
-            return least
+            return least, place
         if out_u <= out_v:
             i += 1 if du > 0.0 else -1
             out_u = _way_out(u, du, i, -1, last_i)

@@ -7,7 +7,7 @@ from planner.compiled import jit
 
 
 @jit
-def least_separation_m(p: Any, q: Any, start: float, end: float, other: Any, first: int) -> tuple[float, int]:
+def least_separation_m(p: Any, q: Any, start: float, end: float, other: Any, first: int) -> tuple[float, float, int]:
     """Least distance between a UAV on its leg from p to q and another UAV at the same time, metres.
 
     Args:
@@ -16,11 +16,13 @@ def least_separation_m(p: Any, q: Any, start: float, end: float, other: Any, fir
         first: a leg of the other path that begins no later than `start`.
 
     Returns:
-        The distance, and the other's leg at `end`, where the search for the next leg begins.
+        The distance, the part of the flight after which it is reached, and the other's leg at `end`, where the search
+        for the next leg begins.
 
     Between corners of either path the relative motion is a straight line.
     """
     least2 = math.inf
+    nearest = start
     leg = first
     last = len(other) - 2
     u0 = start
@@ -33,10 +35,12 @@ def least_separation_m(p: Any, q: Any, start: float, end: float, other: Any, fir
             moved2 = dx * dx + dy * dy + dz * dz
             t = min(1.0, max(0.0, -(x0 * dx + y0 * dy + z0 * dz) / moved2)) if moved2 > 0.0 else 0.0
             x, y, z = x0 + t * dx, y0 + t * dy, z0 + t * dz
-            least2 = min(least2, x * x + y * y + z * z)
+            distance2 = x * x + y * y + z * z
+            if distance2 < least2:
+                least2, nearest = distance2, u0 + t * (u1 - u0)
             u0 = u1
         if leg == last or other[leg + 1, 3] >= end:
-            return math.sqrt(least2), leg
+            return math.sqrt(least2), nearest, leg
         leg += 1
 
 

@@ -19,14 +19,16 @@ _analytic_height_m = compile_shared(analytic_height_m)
 @jit
 def leg_clearance_m(
     p: Any, q: Any, s0_m: float, s1_m: float, terrain: Any, clearance_m: float, climb_out_m: float
-) -> tuple[float, float]:
+) -> tuple[float, float, float, float]:
     """Least clearance r_k of the leg from p to q, equation (6), and the largest shortfall of the wanted clearance.
 
     Args:
         s0_m, s1_m: length of the path before p and before q; the wanted clearance grows with it, from 0 at the
             origin to `clearance_m` at `climb_out_m`.
 
-    Both in metres; the shortfall is negative where there is more than wanted.
+    Returns:
+        r_k in metres and the part of the leg after which it is reached; the same of the shortfall, which is negative
+        where there is more than wanted.
     """
     if len(terrain.posts) > 0:
         exact: tuple[float, float] = _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
@@ -37,36 +39,42 @@ def leg_clearance_m(
         steps = max(steps, int((s1_m - s0_m) / 100.0) + 1)
     least = math.inf
     shortfall = -math.inf
+    lowest = shortest = 0.0
     for i in range(steps + 1):
         t = i / steps
         x, y, z = p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])
         clearance = z - _analytic_height_m(x, y, base_m, wave, peaks)
         wanted = clearance_m * min(1.0, (s0_m + t * (s1_m - s0_m)) / climb_out_m)
-        least = min(least, clearance)
-        shortfall = max(shortfall, wanted - clearance)
-    return least, shortfall
+        if clearance < least:
+            least, lowest = clearance, t
+        if wanted - clearance > shortfall:
+            shortfall, shortest = wanted - clearance, t
+    return least, lowest, shortfall, shortest
 
 
 @jit
 def _above_raster_m(
     p: Any, q: Any, s0_m: float, s1_m: float, terrain: Any, clearance_m: float, climb_out_m: float
-) -> tuple[float, float]:
+) -> tuple[float, float, float, float]:
     """`leg_clearance_m` above a raster.
 
     On the ramp the height above what is wanted there is that of a line lowered by it.
     """
     z0, z1 = p[2], q[2]
     if s0_m >= climb_out_m:
-        least = least_height_above_raster_m(p, q, z0, z1, 0.0, 1.0, terrain)
-        return least, clearance_m - least
+        least, lowest = least_height_above_raster_m(p, q, z0, z1, 0.0, 1.0, terrain)
+        return least, lowest, clearance_m - least, lowest
     ramp_end = min(1.0, (climb_out_m - s0_m) / (s1_m - s0_m))
     wanted0, wanted1 = clearance_m * s0_m / climb_out_m, clearance_m * s1_m / climb_out_m
-    least = least_height_above_raster_m(p, q, z0, z1, 0.0, ramp_end, terrain)
-    shortfall = -least_height_above_raster_m(p, q, z0 - wanted0, z1 - wanted1, 0.0, ramp_end, terrain)
+    least, lowest = least_height_above_raster_m(p, q, z0, z1, 0.0, ramp_end, terrain)
+    over, shortest = least_height_above_raster_m(p, q, z0 - wanted0, z1 - wanted1, 0.0, ramp_end, terrain)
     if ramp_end < 1.0:
-        beyond = least_height_above_raster_m(p, q, z0, z1, ramp_end, 1.0, terrain)
-        least, shortfall = min(least, beyond), max(shortfall, clearance_m - beyond)
-    return least, shortfall
+        beyond, place = least_height_above_raster_m(p, q, z0, z1, ramp_end, 1.0, terrain)
+        if beyond < least:
+            least, lowest = beyond, place
+        if beyond - clearance_m < over:
+            over, shortest = beyond - clearance_m, place
+    return least, lowest, -over, shortest
 
 
 @jit

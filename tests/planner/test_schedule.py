@@ -1,15 +1,17 @@
 """Speeds of legs: limits kept, arrivals equal, errors that name who and where."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from missions.errors import InputError
-from missions.reference import ground_speed_on_track
+from missions.reference import airspeed_on_track, ground_speed_on_track
 from missions.scenario import Scenario, load_scenario
 from planner.limits import POWER_SHARE, airspeed_range_m_s, power_share
-from planner.schedule import common_arrival, even_schedule, leg_faults, timed_schedule
+from planner.schedule import common_arrival, even_schedule, flyable_at, leg_faults, timed_schedule
 
 RADARS = load_scenario("radars")
 
@@ -49,6 +51,32 @@ def test_all_arrive_together_within_the_limits(seed: int, lengths: list[float], 
             assert ground == pytest.approx(schedule.ground_m_s[k], rel=1e-9)
             climb = ground * float(schedule.slopes[k]) / float(airspeed)
             assert power_share(float(airspeed), climb, scenario.airframe.airframe()) <= POWER_SHARE + 1e-6
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=st.integers(0, 2**32), wind=st.tuples(st.floats(-3, 3), st.floats(-3, 3)), climb=st.floats(-0.1, 0.12))
+def test_what_can_be_flown_at_a_speed_is_what_has_no_fault(seed: int, wind: tuple[float, float], climb: float) -> None:
+    path = bent(20e3, np.random.default_rng(seed))
+    path[:, 2] = path[:, 0] * climb
+    scenario = windy(wind)
+    draft = even_schedule(path, 20e3 / 28.0, wind)
+    legs = np.diff(path, axis=0)
+    speedups = np.linspace(0.6, 1.35, 40)
+    possible = flyable_at(
+        speedups,
+        draft.ground_m_s,
+        draft.slopes,
+        np.arctan2(legs[:, 1], legs[:, 0]),
+        wind,
+        airspeed_range_m_s(scenario),
+        scenario.airframe.airframe(),
+    )
+    for speedup, found in zip(speedups, possible, strict=True):
+        ground = draft.ground_m_s * speedup
+        headings = np.arctan2(legs[:, 1], legs[:, 0])
+        air = [airspeed_on_track(*of, wind) for of in zip(ground, draft.slopes, headings, strict=True)]
+        schedule = replace(draft, ground_m_s=ground, air_m_s=np.array(air))
+        assert found == (not list(leg_faults(schedule, scenario)))
 
 
 def test_the_longest_path_is_flown_near_cruise_when_all_can() -> None:

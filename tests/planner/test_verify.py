@@ -119,6 +119,7 @@ def test_a_sound_plan_passes_and_its_figures_are_right(scenario: Scenario) -> No
     assert one.wall_m == pytest.approx(2700.0, abs=0.1)
     assert one.separation_m == pytest.approx(1000.0, abs=0.1)
     assert one.turn_deg == pytest.approx(0.0, abs=1e-3)
+    assert one.bank_deg <= 25.001
     assert one.climb_deg == pytest.approx(math.degrees(math.atan(0.06)), abs=0.01)
     assert one.descent_deg == pytest.approx(0.0, abs=1e-6)
     assert (one.leg_min_m, one.leg_max_m) == pytest.approx((5000.0, 5009.0), abs=0.1)
@@ -168,6 +169,25 @@ def test_a_descent_too_fast_is_found(scenario: Scenario) -> None:
         "outside the airframe's climb rates" in f
         for f in faults(scenario, planned(scenario, down, duration_s=20000 / 30.0))
     )
+
+
+def test_an_airspeed_that_is_too_low_only_in_the_middle_of_turns_is_found(scenario: Scenario) -> None:
+    """30 degrees either side of a strong tail wind each leg is fast enough; straight before it is not."""
+    wind = scenario.wind.model_copy(update={"forecast_m_s": (14.0, 0.0)})
+    windy = scenario.model_copy(update={"wind": wind})
+    zigzag: Path = [(5000.0 * k, -2886.75 * (k % 2), 150.0 * k) for k in range(5)]
+    found = faults(windy, planned(windy, zigzag, duration_s=23094.0 / 31.0))
+    assert not [fault for fault in found if fault.startswith("one: airspeed") and "on leg" in fault]
+    assert [fault for fault in found if fault.startswith("one: airspeed 1.1 m/s beyond the airframe's 18 after")], found
+
+
+def test_a_bank_beyond_the_airframes_is_found(scenario: Scenario) -> None:
+    assert not [fault for fault in faults(scenario, planned(scenario, through((10000, 800, 500)))) if "banks" in fault]
+    airframe = scenario.airframe.model_copy(update={"bank_max_deg": 20.0})
+    stiff = scenario.model_copy(update={"airframe": airframe})
+    found = [fault for fault in faults(stiff, planned(stiff, through((10000, 800, 500)))) if "banks" in fault]
+    assert any(fault.startswith("one: banks by 25.0 deg at (99") for fault in found)
+    assert all(fault.endswith("at most 20.0 are planned") for fault in found)
 
 
 def test_the_ground_before_becoming_airborne_counts_too(scenario: Scenario) -> None:

@@ -23,7 +23,7 @@ def test_least_separation_is_that_of_dense_samples(seed: int) -> None:
     leg = 0
     for k in range(len(own) - 1):
         start, end = own[k, 3], own[k + 1, 3]
-        found, leg = least_separation_m(own[k, :3], own[k + 1, :3], start, end, other, leg)
+        found, _, leg = least_separation_m(own[k, :3], own[k + 1, :3], start, end, other, leg)
         bends = [start, *(u for u in other[:, 3] if start < u < end), end]
         u = np.concatenate([np.linspace(*pair, 2001) for pair in pairwise(bends)])
         here, there = (np.stack([np.interp(u, p[:, 3], p[:, axis]) for axis in range(3)], axis=1) for p in (own, other))
@@ -33,9 +33,9 @@ def test_least_separation_is_that_of_dense_samples(seed: int) -> None:
 def test_the_same_place_at_another_time_is_no_meeting() -> None:
     north = np.array([[0.0, -1000, 0, 0], [0, 1000, 0, 1]])
     west, east = np.array([-1000.0, 0, 0]), np.array([1000.0, 0, 0])
-    meeting, _ = least_separation_m(west, east, 0.0, 1.0, north, 0)
+    meeting, _, _ = least_separation_m(west, east, 0.0, 1.0, north, 0)
     assert meeting == pytest.approx(0.0, abs=1e-9)
     late = np.array([[0.0, -1000, 0, 0], [0, -900, 0, 0.5], [0, 1000, 0, 1]])
-    apart, leg = least_separation_m(west, east, 0.0, 1.0, late, 0)
+    apart, _, leg = least_separation_m(west, east, 0.0, 1.0, late, 0)
     assert apart == pytest.approx(900 * 2000 / np.hypot(2000, 3800))
     assert leg == 1

@@ -23,7 +23,7 @@ def test_least_clearance_is_found(seed: int, wave: tuple[float, ...]) -> None:
     peaks = [(rng.uniform(-800, 1800), *rng.uniform(-4000, 4000, 2), *rng.uniform(80, 3000, 2)) for _ in range(3)]
     terrain = Terrain(10.0, wave, peaks).as_array()  # type: ignore[arg-type]
     p, q = rng.uniform((-5000, -5000, 0), (5000, 5000, 2000), (2, 3))
-    least, shortfall = leg_clearance_m(p, q, 5000.0, 9000.0, terrain, 100.0, 2000.0)
+    least, _, shortfall, _ = leg_clearance_m(p, q, 5000.0, 9000.0, terrain, 100.0, 2000.0)
     truth = dense(p, q, terrain).min()
     assert truth - 0.01 <= least <= truth + DIP_M
     assert shortfall == 100.0 - least
@@ -32,18 +32,18 @@ def test_least_clearance_is_found(seed: int, wave: tuple[float, ...]) -> None:
 def test_a_needle_on_a_long_leg_is_seen() -> None:
     terrain = Terrain(0.0, NO_WAVE, [(900.0, 3333.0, 5.0, 15.0, 15.0)]).as_array()
     p, q = np.array([0.0, 0, 500]), np.array([8000.0, 0, 500])
-    least, _ = leg_clearance_m(p, q, 5000.0, 13000.0, terrain, 100.0, 2000.0)
+    least, _, _, _ = leg_clearance_m(p, q, 5000.0, 13000.0, terrain, 100.0, 2000.0)
     assert least < -290.0
     aside = np.array([0.0, 200.0, 0.0])
-    beside, _ = leg_clearance_m(p + aside, q + aside, 5000.0, 13000.0, terrain, 100.0, 2000.0)
+    beside, _, _, _ = leg_clearance_m(p + aside, q + aside, 5000.0, 13000.0, terrain, 100.0, 2000.0)
     assert beside == 500.0
 
 
 def test_what_is_wanted_grows_with_the_path() -> None:
     flat = Terrain(0.0, NO_WAVE, []).as_array()
     start, end = np.array([0.0, 0, 0]), np.array([4000.0, 0, 200])
-    least, shortfall = leg_clearance_m(start, end, 0.0, 4000.0, flat, 100.0, 2000.0)
+    least, _, shortfall, _ = leg_clearance_m(start, end, 0.0, 4000.0, flat, 100.0, 2000.0)
     assert least == 0.0
     assert abs(shortfall) < 1e-9  # along the ramp exactly, and above it afterwards
-    _, low = leg_clearance_m(start, end, 0.0, 4000.0, flat, 110.0, 2000.0)
+    _, _, low, _ = leg_clearance_m(start, end, 0.0, 4000.0, flat, 110.0, 2000.0)
     assert 9.0 < low <= 10.0
