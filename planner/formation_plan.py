@@ -13,7 +13,7 @@ from missions.mission import Mission, MissionItem
 from missions.reference import Reference, build_reference
 from missions.scenario import Scenario
 
-FORMAT = 1
+FORMAT = 2
 """Version of plan.json."""
 
 
@@ -44,7 +44,7 @@ class UavPlan:
         straight_line_m: from origin to target, the bound that no path is shorter than.
         length_m: of the filleted path, climb included.
         evaluations: of the objective that the search used (0 for a slot).
-        history: best cost after each iteration of the search, kilometres; infeasible ones are null.
+        history: evaluations and the best cost after so many, kilometres; None while there is no feasible one.
         mission: what the vehicle is told.
     """
 
@@ -55,7 +55,7 @@ class UavPlan:
     straight_line_m: float
     length_m: float
     evaluations: int
-    history: tuple[float | None, ...]
+    history: tuple[tuple[int, float | None], ...]
     mission: Mission
 
 
@@ -105,7 +105,7 @@ class FormationPlan:
                     "straight_line_m": uav.straight_line_m,
                     "length_m": uav.length_m,
                     "evaluations": uav.evaluations,
-                    "history": list(uav.history),
+                    "history": [list(entry) for entry in uav.history],
                     "waypoints_m": uav.waypoints_m.tolist(),
                     "mission": [asdict(item) for item in uav.mission],
                 }
@@ -150,6 +150,6 @@ def _uav(entry: dict[str, Any]) -> UavPlan:
         straight_line_m=entry["straight_line_m"],
         length_m=entry["length_m"],
         evaluations=entry["evaluations"],
-        history=tuple(entry["history"]),
+        history=tuple((int(evaluations), cost) for evaluations, cost in entry["history"]),
         mission=Mission(tuple(MissionItem(**item) for item in entry["mission"])),
     )

@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -14,11 +15,15 @@ from missions.scenario import Scenario
 from planner.cost.constraints import with_progress
 from planner.cost.kernel import INFEASIBLE_KM, evaluate
 from planner.cost.problem import NO_MARGINS, PathProblem, path_problem
-from planner.find_path import SEARCHES, PathFound, find_path, require_feasible
+from planner.find_path import METHODS, NO_WISH, SKEIN, PathFound, find_path, vehicle_problem
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
+from planner.infeasible import require_feasible, require_reachable
+from planner.lengthen import too_short
 from planner.limits import airspeed_range_m_s
 from planner.loiter import Circle, stack
+from planner.priority import search_alone, without_conflicts
 from planner.schedule import Schedule, common_arrival, flyable_at
+from planner.skein.search import skein_path
 from planner.slots import slot_path_m, slot_schedule
 from planner.verify import VerificationReport, require, verify
 from planner.write_mission import write_mission
@@ -28,7 +33,7 @@ FloatArray = npt.NDArray[np.float64]
 SLOTS = "slots"
 """The method of a scenario whose vehicles have slots on a route: there is nothing to search for."""
 ATTEMPTS = 4
-"""Searches for one UAV, each with its own chance, before planning gives up."""
+"""Plans of one UAV, each with its own chance and wider margins, before planning gives up."""
 
 
 @dataclass(frozen=True)
@@ -36,17 +41,16 @@ class PlanProgress:
     """How far planning has come.
 
     Attributes:
-        uav, uavs: which UAV, from 0, of how many.
+        uav, uavs: which UAV, from 0, of how many; several are planned side by side.
         name: of that UAV.
-        iteration, iterations: of its search, from 1.
+        part: of its search that is done, 0 to 1.
         best_km: best feasible cost so far, or None.
     """
 
     uav: int
     uavs: int
     name: str
-    iteration: int
-    iterations: int
+    part: float
     best_km: float | None
 
 
@@ -62,16 +66,16 @@ def plan(
     Args:
         scenario: what to plan.
         seed: of all chance; the scenario's unless given.
-        method: a key of `planner.find_path.SEARCHES`; the scenario's unless given. Slots need no search.
-        progress: told of every iteration.
+        method: one of `planner.find_path.METHODS`; the scenario's unless given. Slots need no search.
+        progress: told of every search, from several threads.
 
     Raises:
         InputError: no such method or seed, or no plan was found that keeps to all limits; says which UAV and why.
     """
     seed = scenario.seed if seed is None else seed
     method = SLOTS if scenario.route is not None else method or scenario.search.method
-    if method != SLOTS and method not in SEARCHES:
-        raise InputError(f"method {method}: must be one of {', '.join(SEARCHES)}")
+    if method not in (SLOTS, *METHODS):
+        raise InputError(f"method {method}: must be one of {', '.join(METHODS)}")
     if seed < 0:
         raise InputError(f"seed {seed}: must be 0 or more")
     start = time.perf_counter()
@@ -91,42 +95,50 @@ def _compile(scenario: Scenario) -> None:
         scenario, scenario.vehicles[0], np.empty((0, 2, 4)), scenario.airframe.airspeed_cruise_m_s, NO_MARGINS
     )
     evaluate(np.zeros((1, 3)), problem, "graded")
+    skein_path(problem, 1, budget=200, seed=0, report=lambda *_: None)
     with_progress(problem.corners_m([]), problem)
     one, airframe = np.ones(1), scenario.airframe.airframe()
     flyable_at(one, one, one, one, scenario.wind.forecast_m_s, airspeed_range_m_s(scenario), airframe)
 
 
 def _searched(scenario: Scenario, seed: int, method: str, progress: Progress) -> FormationPlan:
-    """Search for one path after the other; begin again with the first UAV that the verifier finds fault with."""
+    """Search for all paths; again, with other wishes, for those that the schedule or the verifier finds fault with."""
     vehicles = scenario.vehicles
     names = [vehicle.name for vehicle in vehicles]
-    attempts, at_fault = [0] * len(vehicles), [0] * len(vehicles)
-    paths: list[PathFound] = []
-    while True:
-        for i in range(len(paths), len(vehicles)):
+    wishes = [NO_WISH] * len(vehicles)
 
-            def tell(iteration: int, iterations: int, best: float, uav: int = i) -> None:
-                feasible = best if best < INFEASIBLE_KM else None
-                progress(PlanProgress(uav, len(vehicles), names[uav], iteration, iterations, feasible))
+    def search(i: int, avoided: Sequence[PathFound], threads: int | None = None) -> PathFound:
+        def tell(done: int, of: int, best_km: float) -> None:
+            feasible = best_km if best_km < INFEASIBLE_KM else None
+            progress(PlanProgress(i, len(vehicles), names[i], done / of, feasible))
 
-            for _ in range(ATTEMPTS):
-                path = find_path(
-                    scenario, vehicles[i], paths, method=method, seed=seed, attempt=attempts[i], report=tell
-                )
-                attempts[i] += 1
-                if path.feasible:
-                    break
-            require_feasible(names[i], path, ATTEMPTS)
-            paths.append(path)
-        schedules = common_arrival(names, [path.corners_m for path in paths], scenario)
-        result, report = _assembled(scenario, seed, method, paths, schedules)
-        if not report.violations:
-            return result
-        first = min(i for i, vehicle in enumerate(vehicles) if vehicle.sysid in report.at_fault)
-        at_fault[first] += 1
-        if at_fault[first] >= ATTEMPTS:
-            require(report)
-        del paths[first:]
+        path = find_path(
+            scenario, vehicles[i], avoided, method=method, seed=seed, wish=wishes[i], threads=threads, report=tell
+        )
+        tell(1, 1, path.cost_km)
+        return path
+
+    for vehicle in vehicles:
+        require_reachable(vehicle.name, vehicle_problem(scenario, vehicle), scenario.search.waypoints)
+    alone = search_alone(len(vehicles), partial(search, threads=1), side_by_side=method == SKEIN)
+    for _ in range(ATTEMPTS * len(vehicles)):
+        for name, path in zip(names, alone, strict=True):
+            require_feasible(name, path)
+        paths = without_conflicts(scenario, alone, search)
+        corners = [path.corners_m for path in paths]
+        again = too_short(corners, wishes, scenario)
+        if not again:
+            result, report = _assembled(scenario, seed, method, paths, common_arrival(names, corners, scenario))
+            if not report.violations:
+                return result
+            first = min(i for i, vehicle in enumerate(vehicles) if vehicle.sysid in report.at_fault)
+            if wishes[first].attempt + 1 == ATTEMPTS:
+                require(report)
+            again = {first: replace(wishes[first], attempt=wishes[first].attempt + 1)}
+        for i, wish in again.items():
+            wishes[i] = wish
+            alone[i] = search(i, ())
+    raise AssertionError("a UAV is planned again at most ATTEMPTS times")
 
 
 def _on_slots(scenario: Scenario, seed: int) -> tuple[FormationPlan, VerificationReport]:
@@ -171,7 +183,7 @@ def _assembled(
                 straight_line_m=float(np.linalg.norm(path.corners_m[-1] - path.corners_m[0])),
                 length_m=float(np.sum(np.hypot(schedule.arcs_m, schedule.arcs_m * schedule.slopes))),
                 evaluations=path.evaluations,
-                history=tuple(cost if cost < INFEASIBLE_KM else None for cost in path.history),
+                history=tuple((n, cost if cost < INFEASIBLE_KM else None) for n, cost in path.history),
                 mission=write_mission(path.corners_m, schedule, circle, scenario.frame),
             )
         )

@@ -116,6 +116,30 @@ def common_arrival(names: Sequence[str], paths: Sequence[FloatArray], scenario: 
     return [even_schedule(path, duration, wind) for path in paths]
 
 
+def arrival_window_s(corners_m: FloatArray, scenario: Scenario) -> tuple[float, float] | None:
+    """Soonest and latest arrival of one UAV at one ground speed all the way; None when it cannot fly its path."""
+    wind = scenario.wind.forecast_m_s
+    airspeeds = airspeed_range_m_s(scenario)
+    blowing = math.hypot(*wind)
+    length = float(np.hypot(*np.diff(corners_m[:, :2], axis=0).T).sum())
+    speeds = np.arange(airspeeds[1] + blowing, max(airspeeds[0] - blowing, 1.0), -SPEED_STEP_M_S)
+    draft = even_schedule(corners_m, length / scenario.airframe.airspeed_cruise_m_s, wind)
+    legs = np.diff(corners_m, axis=0)
+    possible = speeds[
+        flyable_at(
+            speeds / float(draft.ground_m_s[0]),
+            draft.ground_m_s,
+            draft.slopes,
+            np.arctan2(legs[:, 1], legs[:, 0]),
+            wind,
+            airspeeds,
+            scenario.airframe.airframe(),
+        )
+    ]
+    flown = float(draft.arcs_m.sum())
+    return (flown / float(possible.max()), flown / float(possible.min())) if len(possible) else None
+
+
 @jit
 def flyable_at(
     speedups: Any, ground_m_s: Any, slopes: Any, headings: Any, wind_m_s: Any, airspeeds_m_s: Any, airframe: Any

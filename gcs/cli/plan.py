@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from missions.scenario import Scenario
     from planner.formation_plan import FormationPlan
 
-MethodOption = Annotated[str | None, typer.Option("--method", metavar="M", help="Search: pso or hybrid.")]
+MethodOption = Annotated[
+    str | None, typer.Option("--method", metavar="M", help="Search: pso, qpso, hybrid or published.")
+]
 
 
 def plan(

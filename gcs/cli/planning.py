@@ -15,9 +15,11 @@ def search_with_progress(scenario: Scenario, seed: int | None, method: str | Non
     with Progress(*columns, console=output.progress, transient=True) as bar:
         task = bar.add_task(f"Planning {scenario.name}", total=len(scenario.vehicles), best="compiling")
 
+        parts = [0.0] * len(scenario.vehicles)
+
         def show(progress: PlanProgress) -> None:
-            done = progress.uav + progress.iteration / progress.iterations
+            parts[progress.uav] = progress.part
             best = "no way yet" if progress.best_km is None else f"f = {progress.best_km:.2f} km"
-            bar.update(task, completed=done, description=f"Planning {progress.name}", best=best)
+            bar.update(task, completed=sum(parts), description=f"Planning {progress.name}", best=best)
 
         return search(scenario, seed=seed, method=method, progress=show)

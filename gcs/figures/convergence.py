@@ -10,18 +10,17 @@ from planner.formation_plan import FormationPlan
 
 
 def draw_convergence(plan: FormationPlan, scenario: Scenario, path: Path) -> None:
-    """Draw the best feasible cost of each UAV after each iteration, in lengths of its straight line."""
+    """Draw the best feasible cost of each UAV over evaluations, in lengths of its straight line."""
     colours = style.vehicle_colours(scenario)
     with style.page(path, 4.4) as figure:
         axes = figure.subplots()
         for uav in plan.uavs:
-            costs_km = np.array(uav.history, dtype=np.float64)
-            iterations = np.arange(1, len(costs_km) + 1)
-            axes.plot(iterations, costs_km * 1000.0 / uav.straight_line_m, color=colours[uav.sysid])
+            evaluations, costs_km = np.array(uav.history, dtype=np.float64).T
+            axes.step(evaluations, costs_km * 1000.0 / uav.straight_line_m, where="post", color=colours[uav.sysid])
         axes.set_title("Best feasible cost so far; 1 is the straight line, which no path can beat")
-        axes.set_xlabel("iteration")
+        axes.set_xlabel("evaluations of the objective")
         axes.set_ylabel("f / straight line (km / km)")
-        axes.set_xlim(0.0, max(len(uav.history) for uav in plan.uavs))
+        axes.set_xlim(0.0, max(uav.evaluations for uav in plan.uavs))
         axes.set_ylim(bottom=1.0)
         style.headline(figure, f"{scenario.name}: the search, {plan.method}, seed {plan.seed}")
         style.legend_beside(figure, style.vehicle_handles(scenario))

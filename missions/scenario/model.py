@@ -232,7 +232,7 @@ class LimitsModel(Keys):
 class SearchModel(Keys):
     """How paths are searched for."""
 
-    method: Literal["pso", "hybrid"] = "hybrid"
+    method: Literal["skein", "pso", "qpso", "hybrid", "published"] = "skein"
     waypoints: Count = 12
     """Interior waypoints of each path."""
     population: Annotated[int, Field(strict=True, ge=4)] = 150

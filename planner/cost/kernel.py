@@ -151,3 +151,12 @@ def _altitude_deviation_m(corners: Any) -> float:
     for k in range(len(corners)):
         squares += (corners[k, 2] - mean) * (corners[k, 2] - mean)
     return math.sqrt(squares / (len(corners) - 1))
+
+
+@jit
+def path_costs(paths_m: Any, problem: Any) -> Any:
+    """`evaluate` of (n, m, 3) paths, graded, in the calling thread: costs (n,)."""
+    costs, terms = np.empty(len(paths_m)), np.empty(5)
+    for i in range(len(paths_m)):
+        costs[i] = path_cost(paths_m[i], problem, True, terms)
+    return costs

@@ -31,7 +31,7 @@ def leg_clearance_m(
         where there is more than wanted.
     """
     if len(terrain.posts) > 0:
-        exact: tuple[float, float] = _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
+        exact: tuple[float, float, float, float] = _above_raster_m(p, q, s0_m, s1_m, terrain, clearance_m, climb_out_m)
         return exact
     base_m, wave, peaks = terrain.base_m, terrain.wave, terrain.peaks
     steps = _steps(p, q, wave, peaks)

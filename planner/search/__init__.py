@@ -1,1 +1,5 @@
-"""Searches behind one interface: they see a cost function of a population, a budget and a random generator."""
+"""Searches behind one interface: they see a counted cost function in a box, start points and a random generator."""
+
+from planner.search.minimize import minimize
+
+__all__ = ["minimize"]

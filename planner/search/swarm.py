@@ -4,8 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.search.search import Cost, FloatArray
+from planner.search.objective import FloatArray, Objective
 
+POPULATION = 40
+"""Particles where starts are no swarm of their own; that of the standard PSO of 2011."""
+FEWEST = 4
+"""So many starts are a swarm of their own."""
 INERTIA_FIRST, INERTIA_LAST = 0.9, 0.4
 """w_max and w_min of (40); the values of Shi and Eberhart (1998)."""
 ACCELERATION = 2.0
@@ -23,7 +27,6 @@ class Swarm:
         costs: (n,) of the positions.
         own_best, own_costs: (n, d), (n,): best place of each particle (36).
         best, cost: (d,): best of all (37)-(38).
-        evaluations: so far.
     """
 
     positions: FloatArray
@@ -33,9 +36,23 @@ class Swarm:
     own_costs: FloatArray
     best: FloatArray
     cost: float
-    evaluations: int
 
-    def remember(self) -> None:
+    def go(self, positions: FloatArray, objective: Objective) -> None:
+        """Move every particle, inside the box."""
+        self.positions = np.clip(positions, objective.low, objective.high)
+        self.costs = objective(self.positions)
+        self._remember()
+
+    def go_where_better(self, mutants: FloatArray, objective: Objective) -> None:
+        """Equation (45): a particle goes where its mutant is if that is better."""
+        mutants = np.clip(mutants, objective.low, objective.high)
+        costs = objective(mutants)
+        better = costs < self.costs
+        self.positions[better] = mutants[better]
+        self.costs[better] = costs[better]
+        self._remember()
+
+    def _remember(self) -> None:
         """Keep what is better than before, (36)-(38)."""
         better = self.costs < self.own_costs
         self.own_best[better] = self.positions[better]
@@ -45,35 +62,39 @@ class Swarm:
             self.best, self.cost = self.own_best[leader].copy(), float(self.own_costs[leader])
 
 
-def first_swarm(cost: Cost, positions: FloatArray) -> Swarm:
-    """A swarm at rest, evaluated once."""
-    costs = cost(positions)
+def first_swarm(objective: Objective, starts: FloatArray, rng: np.random.Generator) -> Swarm:
+    """A swarm at rest, evaluated once: the starts, with random particles up to `POPULATION` where they are too few."""
+    others = objective.random(POPULATION - len(starts) if len(starts) < FEWEST else 0, rng)
+    positions = np.concatenate([starts, others])
+    costs = objective(positions)
     leader = int(np.argmin(costs))
     return Swarm(
-        positions=positions.copy(),
+        positions=positions,
         velocities=np.zeros_like(positions),
         costs=costs,
         own_best=positions.copy(),
         own_costs=costs.copy(),
         best=positions[leader].copy(),
         cost=float(costs[leader]),
-        evaluations=len(positions),
     )
 
 
-def falling_inertia(iteration: int, iterations: int) -> float:
-    """w of (40), corrected: from `INERTIA_FIRST` in iteration 0 to `INERTIA_LAST` in the last."""
-    return INERTIA_FIRST - (INERTIA_FIRST - INERTIA_LAST) * iteration / max(iterations - 1, 1)
+def falling_inertia(progress: float) -> float:
+    """w of (40), corrected: from `INERTIA_FIRST` at progress 0 to `INERTIA_LAST` at 1."""
+    return INERTIA_FIRST - (INERTIA_FIRST - INERTIA_LAST) * progress
 
 
-def fly(swarm: Swarm, inertia: float, low: FloatArray, high: FloatArray, rng: np.random.Generator) -> None:
-    """Move every particle by (39), inside the box. Its cost is not known afterwards."""
+def velocities(swarm: Swarm, inertia: float, rng: np.random.Generator) -> FloatArray:
+    """(n, d) by (39)."""
     own, common = rng.random((2, *swarm.positions.shape))
-    velocities = (
-        inertia * swarm.velocities
-        + ACCELERATION * own * (swarm.own_best - swarm.positions)
-        + ACCELERATION * common * (swarm.best - swarm.positions)
-    )
-    fastest = SPEED_MAX * (high - low)
-    swarm.velocities = np.clip(velocities, -fastest, fastest)
-    swarm.positions = np.clip(swarm.positions + swarm.velocities, low, high)
+    to_own = own * (swarm.own_best - swarm.positions)
+    to_best = common * (swarm.best - swarm.positions)
+    faster: FloatArray = inertia * swarm.velocities + ACCELERATION * (to_own + to_best)
+    return faster
+
+
+def fly(swarm: Swarm, objective: Objective, rng: np.random.Generator) -> None:
+    """Move every particle by (39), with falling inertia and no faster than `SPEED_MAX`."""
+    fastest = SPEED_MAX * (objective.high - objective.low)
+    swarm.velocities = np.clip(velocities(swarm, falling_inertia(objective.progress), rng), -fastest, fastest)
+    swarm.go(swarm.positions + swarm.velocities, objective)

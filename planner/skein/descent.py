@@ -7,7 +7,7 @@ import numpy as np
 
 from planner.compiled import jit
 from planner.cost.kernel import path_cost
-from planner.skein.merit import KM, limits_count, merit
+from planner.skein.merit import KM, merit
 
 ARMIJO, CURVATURE = 1e-4, 0.5
 """Weak Wolfe conditions."""
@@ -62,7 +62,7 @@ def descend(
         for i in range(d):
             gradient[i] = slopes[1 + i // 3, i % 3]
         slope = 0.0
-        for attempt in range(2):
+        for _ in range(2):
             slope = 0.0
             for i in range(d):
                 total = 0.0

@@ -1,9 +1,10 @@
 """What the descent minimises: the objective (3) with the limits as an augmented Lagrangian, and its exact gradient.
 
-The objective alone stalls a gradient method: f_R jumps at a radar's edge and a limit is a cliff. Here a limit is a signed
-distance c <= 0 (to walls, spheres, ground, other UAVs, and each constraint of (12)), which enters as
-((max(0, mu + rho c))^2 - mu^2) / (2 rho) with a multiplier mu of its own (Powell, Hestenes, Rockafellar). A radar is either
-kept out of, as a limit, or crossed, at the price of (7)-(8). All in kilometres; angles count a kilometre a radian.
+The objective alone stalls a gradient method: f_R jumps at a radar's edge and a limit is a cliff. Here a limit is a
+signed distance c <= 0 (to walls, spheres, ground, other UAVs, and each constraint of (12)), which enters as
+((max(0, mu + rho c))^2 - mu^2) / (2 rho) with a multiplier mu of its own (Powell, Hestenes, Rockafellar). A radar is
+either kept out of, as a limit, or crossed, at the price of (7)-(8). All in kilometres; angles count a kilometre a
+radian.
 """
 
 import math
@@ -11,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from missions.environment.terrain import ground_height_and_slope
 from planner.compiled import compile_shared, jit
 from planner.cost.radar import radar_integral_m
 from planner.cost.separation import least_separation_m
 from planner.cost.terrain import leg_clearance_m
 from planner.skein.distances import sphere_distance, wall_distance
 from planner.skein.radar_slope import add_radar_slope
-from missions.environment.terrain import ground_height_and_slope
 
 _ground = compile_shared(ground_height_and_slope)
 
@@ -83,7 +84,7 @@ def merit(
     arc_slope = np.zeros(legs)
     passed_slope = np.zeros(legs + 1)
     other_legs = np.zeros(len(problem.others), np.int64)
-    value = 0.0
+    value: float = 0.0
     clearance_sum = 0.0
     clearance_weight = np.empty((legs, 3))
     clearance_place = np.empty(legs)
@@ -146,9 +147,7 @@ def merit(
             p, q, passed[k], passed[k + 1], problem.terrain, bounds.clearance_m, bounds.climb_out_m
         )
         clearance_place[k] = lowest
-        clearance_sum += _soft_least(
-            p[2] - heights[k, 0], q[2] - heights[k + 1, 0], least, soft_m, clearance_weight[k]
-        )
+        clearance_sum += _soft_least(p[2] - heights[k, 0], q[2] - heights[k + 1, 0], least, soft_m, clearance_weight[k])
         push, added = _limit(i + 7, shortfall * KM, multipliers, rho, limits)
         if added != 0.0:
             value += added
@@ -332,7 +331,8 @@ def _soft_least(start: float, end: float, between: float, soft_m: float, weights
     total = weights[0] + weights[1] + weights[2]
     for i in range(3):
         weights[i] /= total
-    return least - soft_m * math.log(total)
+    soft: float = least - soft_m * math.log(total)
+    return soft
 
 
 @jit

@@ -73,7 +73,7 @@ class RouteGrid:
         weights = self._length * 0.5 * (flat[self._from] + flat[self._to])
         graph = csr_array((weights, (self._from, self._to)), shape=(flat.size, flat.size))
         start, end = self._ends
-        _, before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)
+        _, before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)  # type: ignore[call-overload]  # the stubs know no single start
         nodes = [end]
         while nodes[-1] != start:
             nodes.append(int(before[nodes[-1]]))
@@ -114,9 +114,7 @@ def nominal_heights_m(x: FloatArray, y: FloatArray, problem: PathProblem) -> tup
     """How high an even climb would be at each place, and how high the highest path could be."""
     b, origin, target = problem.bounds, problem.origin_m, problem.target_m
     gone, left = np.hypot(x - origin[0], y - origin[1]), np.hypot(x - target[0], y - target[1])
-    highest = np.minimum(
-        b.z_max_m, np.minimum(origin[2] + b.slope_max * gone, target[2] - b.slope_min * left)
-    )
+    highest = np.minimum(b.z_max_m, np.minimum(origin[2] + b.slope_max * gone, target[2] - b.slope_min * left))
     even = origin[2] + (target[2] - origin[2]) * gone / np.maximum(gone + left, 1.0)
     return np.minimum(even, highest), highest
 

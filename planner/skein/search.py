@@ -11,10 +11,9 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from planner.cost.kernel import INFEASIBLE_KM, evaluate
+from planner.cost.kernel import INFEASIBLE_KM, path_costs
 from planner.cost.problem import PathProblem
 from planner.cost.radar import radar_integral_m
-from planner.search.search import SearchResult
 from planner.skein.descent import polish
 from planner.skein.merit import limits_count
 from planner.skein.routes import RouteGrid
@@ -57,6 +56,23 @@ class OutOfBudgetError(Exception):
     """No evaluations are left."""
 
 
+@dataclass(frozen=True)
+class PathResult:
+    """What the search found, named as scipy's `OptimizeResult` names it.
+
+    Attributes:
+        x: (3 waypoints,) interior waypoints of the best path, metres.
+        fun: its cost, kilometres.
+        nfev: evaluations.
+        history: evaluations and best cost whenever something was tried.
+    """
+
+    x: FloatArray
+    fun: float
+    nfev: int
+    history: tuple[tuple[int, float], ...]
+
+
 @dataclass
 class Descent:
     """One start on its way.
@@ -85,24 +101,31 @@ class PathSearch:
         waypoints: interior ones.
         budget: evaluations at most; a gradient counts as several.
         seed: of all chance.
+        threads: that follow descents.
         report: told evaluations and best cost whenever something was tried; may raise to stop.
     """
 
     def __init__(
-        self, problem: PathProblem, waypoints: int, budget: int, seed: int, report: Callable[[int, float], None]
+        self,
+        problem: PathProblem,
+        waypoints: int,
+        budget: int,
+        seed: int,
+        threads: int,
+        report: Callable[[int, float], None],
     ) -> None:
         self.problem = problem
         self.waypoints = waypoints
         self.budget = budget
         self.evaluations = 0
-        self.history: list[float] = []
+        self.history: list[tuple[int, float]] = []
         self._tightened = tightened(problem)
         self._limits = limits_count(waypoints + 1, problem)
         self._around = threats(problem)
         self._grid = RouteGrid(problem)
         self._rng = np.random.default_rng(seed)
         self._report = report
-        self._pool = ThreadPoolExecutor(numba.get_num_threads())
+        self._pool = ThreadPoolExecutor(threads)
         inside = [
             any(math.dist(end, radar[:3]) < radar[3] for end in (problem.origin_m, problem.target_m))
             for radar in problem.radars
@@ -111,7 +134,7 @@ class PathSearch:
         self.best_m = np.linspace(problem.origin_m, problem.target_m, waypoints + 2)
         self.cost_km = math.inf
 
-    def run(self) -> SearchResult:
+    def run(self) -> PathResult:
         """Search until nothing better is near, or the budget is used."""
         try:
             with self._pool:
@@ -123,7 +146,7 @@ class PathSearch:
                     pass
         except OutOfBudgetError:
             pass
-        return SearchResult(self.best_m[1:-1].ravel(), self.cost_km, tuple(self.history), self.evaluations)
+        return PathResult(self.best_m[1:-1].ravel(), self.cost_km, self.evaluations, tuple(self.history))
 
     def _starts(self) -> list[FloatArray]:
         """The cheapest start of each class, the cheapest first."""
@@ -132,15 +155,18 @@ class PathSearch:
             routed = routed_paths(self._grid, self.problem, self.waypoints, ROUTES, SPACINGS, self._rng)
             paths = np.concatenate([routed, paths])
         paths = paths[: max(1, self.budget // SHARE_OF_STARTS)]
-        costs, _ = evaluate(paths[:, 1:-1].reshape(len(paths), -1), self.problem, "graded")
+        costs = path_costs(paths, self.problem)
         self._count(len(paths), paths[int(np.argmin(costs))], float(costs.min()))
         return [paths[i] for i in self._by_class(paths, costs)[: min(DESCENTS, max(2, self.budget // WHOLE_DESCENT))]]
 
-    def _by_class(self, paths_m: Sequence[FloatArray] | FloatArray, costs_km: Sequence[float] | FloatArray) -> list[int]:
+    def _by_class(
+        self, paths_m: Sequence[FloatArray] | FloatArray, costs_km: Sequence[float] | FloatArray
+    ) -> list[int]:
         """Indices of paths: the best of each class, the best first, then the others."""
         named = classes(paths_m, self._around)
         seen: set[bytes] = set()
-        first, later = [], []
+        first: list[int] = []
+        later: list[int] = []
         for i in np.argsort(costs_km, kind="stable").tolist():
             (later if named[i] in seen else first).append(i)
             seen.add(named[i])
@@ -148,9 +174,7 @@ class PathSearch:
 
     def _descent(self, start_m: FloatArray, *, through: bool = False) -> Descent:
         crossed = self._within | through
-        return Descent(
-            start_m.copy(), crossed, np.zeros(self._limits), WEIGHT, SOFTNESS_M, start_m.copy(), math.inf
-        )
+        return Descent(start_m.copy(), crossed, np.zeros(self._limits), WEIGHT, SOFTNESS_M, start_m.copy(), math.inf)
 
     def _follow(self, descents: list[Descent], stages: Iterable[Stage]) -> None:
         """Follow descents stage by stage, each time the better ones."""
@@ -189,7 +213,10 @@ class PathSearch:
     def _improve(self) -> bool:
         """Try the classes beside the best path; whether one is better."""
         before = self.cost_km
-        starts = [self._descent(path) for path in on_other_sides(self.best_m, self.problem, self._around, self._grid, self._rng)]
+        starts = [
+            self._descent(path)
+            for path in on_other_sides(self.best_m, self.problem, self._around, self._grid, self._rng)
+        ]
         through = np.array([self._crosses(radar) for radar in self.problem.radars], dtype=np.bool_)
         if through.any():
             again = self._descent(self.best_m)
@@ -206,13 +233,19 @@ class PathSearch:
         self.evaluations += used
         if cost_km < self.cost_km:
             self.best_m, self.cost_km = path_m.copy(), cost_km
-        self.history.append(self.cost_km)
+        self.history.append((self.evaluations, self.cost_km))
         self._report(self.evaluations, self.cost_km)
 
 
 def skein_path(
-    problem: PathProblem, waypoints: int, *, budget: int, seed: int, report: Callable[[int, float], None]
-) -> SearchResult:
+    problem: PathProblem,
+    waypoints: int,
+    *,
+    budget: int,
+    seed: int,
+    report: Callable[[int, float], None],
+    threads: int | None = None,
+) -> PathResult:
     """Search for the best path of one UAV.
 
     Args:
@@ -220,6 +253,7 @@ def skein_path(
         waypoints: interior ones.
         budget: evaluations of the objective at most; a gradient counts as `planner.skein.descent.GRADIENT`.
         seed: of all chance; with the budget it decides the result, whatever the number of threads.
+        threads: that follow descents; as many as numba uses unless given.
         report: told of evaluations used and the best cost, km, whenever something was tried; may raise to stop.
     """
-    return PathSearch(problem, waypoints, budget, seed, report).run()
+    return PathSearch(problem, waypoints, budget, seed, threads or numba.get_num_threads(), report).run()

@@ -1,6 +1,6 @@
 """On which side of each threat a path passes: its homotopy class, more or less; and the same path on another side.
 
-The local optima of a path are, nearly, one a class: so a search over classes with a descent in each is a search over all.
+The local optima of a path are, nearly, one a class: a search over classes with a descent in each is one over all.
 """
 
 import math
@@ -87,7 +87,8 @@ def on_other_sides(
         found.append(path_along(grid.route(wall_m=wall), problem, len(corners_m) - 2, rng))
         if is_radar:
             half = REACH * wide + passed[-1] / len(leg)
-            bump = np.cos(0.5 * np.pi * np.clip((passed - passed[k] - t[k] * np.sqrt(length2[k])) / half, -1.0, 1.0)) ** 2
+            there = passed[k] + t[k] * np.sqrt(length2[k])
+            bump = np.cos(0.5 * np.pi * np.clip((passed - there) / half, -1.0, 1.0)) ** 2
             bump[[0, -1]] = 0.0
             for side in (-1.0, 1.0):
                 if off[2] * side < 0.9 * high and problem.bounds.z_min_m < z + side * high < problem.bounds.z_max_m:

@@ -1,5 +1,7 @@
 """What the search starts from: smooth bends at random, and routes through the plan view, with many spacings."""
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
@@ -27,7 +29,7 @@ def bent_paths(problem: PathProblem, waypoints: int, count: int, rng: np.random.
     line = (problem.target_m - problem.origin_m)[:2]
     wave = np.arange(1, WAVES + 1)
     shapes = np.sin(np.pi * wave[:, None] * part)
-    width = np.exp(rng.uniform(*np.log(SIDEWAYS), count))
+    width = np.exp(rng.uniform(math.log(SIDEWAYS[0]), math.log(SIDEWAYS[1]), count))
     bends = (rng.normal(size=(count, WAVES)) * width[:, None] / wave) @ shapes
     bends[0] = 0.0
     straight = problem.origin_m[:2] + part[:, None] * line
@@ -45,24 +47,20 @@ def routed_paths(
     """(count x spacings, n + 1, 3) corners of paths along routes, the cheapest first; some evenly spaced, some not."""
     routes = [grid.route(rng=None if i == 0 else rng) for i in range(count)]
     return np.array(
-        [
-            path_along(route, problem, waypoints, None if i == 0 else rng)
-            for i in range(spacings)
-            for route in routes
-        ]
+        [path_along(route, problem, waypoints, None if i == 0 else rng) for i in range(spacings) for route in routes]
     )
 
 
-def path_along(
-    points: FloatArray, problem: PathProblem, waypoints: int, rng: np.random.Generator | None
-) -> FloatArray:
+def path_along(points: FloatArray, problem: PathProblem, waypoints: int, rng: np.random.Generator | None) -> FloatArray:
     """(waypoints + 2, 3) corners along a route (n, 2): evenly spaced, or with chance unevenly; climbing evenly, and
     above the ground where that can be reached."""
     passed = np.append(0.0, np.cumsum(np.hypot(*np.diff(points, axis=0).T)))
     if rng is None:
         part = np.linspace(0.0, 1.0, waypoints + 2)
     else:
-        shares = rng.dirichlet(np.full(waypoints + 1, np.exp(rng.uniform(*np.log(EVENNESS)))))
+        shares = rng.dirichlet(
+            np.full(waypoints + 1, math.exp(rng.uniform(math.log(EVENNESS[0]), math.log(EVENNESS[1]))))
+        )
         part = np.append(0.0, np.cumsum(shares))
     x, y = (np.interp(part * passed[-1], passed, points[:, axis]) for axis in range(2))
     b = problem.bounds

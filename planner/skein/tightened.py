@@ -22,13 +22,15 @@ def tightened(problem: PathProblem) -> PathProblem:
     for row in obstacles:
         at_ends = float(wall_distances_m(ends, Obstacle(*row[:4])).min())
         row[4] = max(row[4], min(row[4] + TIGHTER_M, at_ends - ENDS_M))
-    at_ends = np.array(
+    others_at_ends = np.array(
         [
             min(np.linalg.norm(other[0, :3] - ends[0]), np.linalg.norm(other[-1, :3] - ends[1]))
             for other in problem.others
         ]
     ).reshape(-1)
-    separations = np.maximum(problem.separations_m, np.minimum(problem.separations_m + TIGHTER_M, at_ends - ENDS_M))
+    separations = np.maximum(
+        problem.separations_m, np.minimum(problem.separations_m + TIGHTER_M, others_at_ends - ENDS_M)
+    )
     at_target = problem.target_m[2] - ground_height_m(problem.target_m[0], problem.target_m[1], problem.terrain)
     bounds = b._replace(
         x_min_m=b.x_min_m + TIGHTER_M,

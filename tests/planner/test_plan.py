@@ -130,7 +130,7 @@ def test_a_slot_plan_that_fails_verification_is_never_returned() -> None:
 
 
 def test_an_unknown_method_is_refused_by_name() -> None:
-    with pytest.raises(InputError, match="method annealing: must be one of pso, hybrid"):
+    with pytest.raises(InputError, match="method annealing: must be one of pso, qpso, hybrid, published"):
         plan(RADARS, method="annealing")
 
 

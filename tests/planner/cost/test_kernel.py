@@ -37,7 +37,6 @@ BOUNDS = Bounds(
     clearance_m=100.0,
     climb_out_m=2000.0,
     length_min_m=0.0,
-    length_min_m=0.0,
     fillet_radius_m=250.0,
     collision_penalty_km=100.0,
     terrain_penalty_km=80.0,
