@@ -23,7 +23,11 @@ def clearances_m(
         corners: (n, legs + 1, 3).
         passed: (n, legs + 1) length of the path before each corner.
     """
-    t = _crossings(corners, passed, terrain, bounds) if len(terrain.posts) else _samples(corners, passed, terrain, bounds)
+    t = (
+        _crossings(corners, passed, terrain, bounds)
+        if len(terrain.posts)
+        else _samples(corners, passed, terrain, bounds)
+    )
     p, leg = corners[:, :-1, None], np.diff(corners, axis=1)[:, :, None]
     climbed = passed[:, :-1, None] + t * np.diff(passed, axis=1)[:, :, None]
     wanted = bounds.clearance_m * np.minimum(1.0, climbed / bounds.climb_out_m)
