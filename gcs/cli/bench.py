@@ -46,6 +46,10 @@ ClusterOption = Annotated[
     str | None, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to send the runs to.")
 ]
 QuickOption = Annotated[bool, typer.Option("--quick", help="A handful of problems, 3 seeds, small limits.")]
+KernelOption = Annotated[bool, typer.Option("--kernel", help="Measure the compiled objective instead of searches.")]
+TogetherOption = Annotated[
+    bool, typer.Option("--together", help="Plan all vehicles of the paper's scenarios together, seed by seed, instead.")
+]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and figures.")]
 UpdateOption = Annotated[bool, typer.Option("--update-best", help="Keep what is better than the best-known paths.")]
 
@@ -61,6 +65,8 @@ def bench(
     quick: QuickOption = False,
     out: OutOption = None,
     update_best: UpdateOption = False,
+    together: TogetherOption = False,
+    kernel: KernelOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare searches on many problems, at equal evaluations and at equal CPU time.
@@ -68,6 +74,12 @@ def bench(
     Example: skein bench --quick --methods pso,skein --out /tmp/bench
     """
     with exit_codes():
+        if kernel:
+            measure_kernel(json)
+            return
+        if together:
+            plan_together(methods, seeds or (QUICK_SEEDS if quick else SEEDS), update_best, json)
+            return
         from gcs.cli import output
         from gcs.cli.bench_tables import family_table, method_table
         from planner.bench.best_known import load_best_known
@@ -79,8 +91,9 @@ def bench(
             budget if budget is not None else QUICK_BUDGET if quick else BUDGET,
             time if time is not None else QUICK_TIME_S if quick else TIME_S,
         )
-        names = problem_names(problems or ("quick" if quick else "all"))
+        names = problem_names(problems if problems is not None else "quick" if quick else "all")
         searches = method_names(methods)
+        workers = chosen_workers(jobs, cluster)
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
         comparison = with_progress(
@@ -88,7 +101,7 @@ def bench(
             searches,
             seeds or (QUICK_SEEDS if quick else SEEDS),
             limits,
-            chosen_workers(jobs, cluster),
+            workers,
         )
         if json:
             output.print_json_line(comparison.as_json())
@@ -107,6 +120,57 @@ def bench(
             output.progress.print(f"No result: {failure.job.name}: {failure.reason}", markup=False)
         if comparison.failures:
             raise SystemExit(FELL_SHORT)
+
+
+def measure_kernel(json: bool) -> None:
+    """How fast the compiled objective is."""
+    from dataclasses import asdict
+
+    from gcs.cli import output
+    from gcs.cli.bench_tables import kernel_table, work_table
+    from planner.bench.kernel_speed import kernel_speeds
+
+    peaks, speeds = kernel_speeds()
+    if json:
+        output.print_json({"peaks_per_s": peaks, "kernel": [asdict(speed) for speed in speeds]})
+    else:
+        output.print_wide(kernel_table(speeds))
+        output.print_wide(work_table(peaks, speeds))
+
+
+def plan_together(methods: str, seeds: int, update_best: bool, json: bool) -> None:
+    """Plan all vehicles of the paper's scenarios with each of some methods, `skein` unless named."""
+    from gcs.cli import output
+    from gcs.cli.bench_tables import together_table
+    from missions.errors import InputError
+    from missions.scenario import load_scenario
+    from planner.bench.best_known import load_best_known
+    from planner.bench.problems import SCENARIOS
+    from planner.bench.together import offer_plan, plan_digest, plan_figures, plan_run
+    from planner.find_path import METHODS, SKEIN
+
+    chosen = [SKEIN] if methods == "all" else methods.split(",")
+    for method in chosen:
+        if method not in METHODS:
+            raise InputError(f"method {method}: plans are made by {', '.join(METHODS)}")
+    known, figures, better = load_best_known(), [], []
+    for name in SCENARIOS:
+        scenario = load_scenario(name)
+        best_km = known.value_km(plan_digest(scenario))
+        for method in chosen:
+            runs = []
+            for seed in range(1, seeds + 1):
+                with output.progress.status(f"Planning {name}, {method}, seed {seed} of {seeds}"):
+                    runs.append(plan_run(scenario, method, seed))
+            figures.append(plan_figures(runs, best_km))
+            better += [name for run in runs if run.plan and offer_plan(known, scenario, run.plan)]
+    if json:
+        output.print_json(figures)
+    else:
+        output.print_wide(together_table(figures))
+    if update_best:
+        known.save()
+        output.progress.print(f"Better than before: {', '.join(dict.fromkeys(better)) or 'none'}")
 
 
 def chosen_limits(budget: str, time_s: float) -> "tuple[Limit, ...]":

@@ -1,10 +1,14 @@
 """The tables of `skein bench`; they fit 100 columns."""
 
+from collections.abc import Mapping, Sequence
+from typing import Any
+
 from rich import box
 from rich.table import Table
 
 from planner.bench.comparison import TARGETS, Comparison
 from planner.bench.job import Limit
+from planner.bench.kernel_speed import KernelSpeed
 
 
 def method_table(comparison: Comparison, limit: Limit) -> Table:
@@ -48,9 +52,66 @@ def family_table(comparison: Comparison, limit: Limit) -> Table:
     return table
 
 
-def _table(title: str) -> Table:
+def kernel_table(speeds: Sequence[KernelSpeed]) -> Table:
+    """Evaluations a second."""
+    table = _table("Evaluations of the objective a second", "problem")
+    for heading in ("ground", "1 thread", f"{speeds[0].threads} threads", "numpy", "1 thread / numpy", "part of peak"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for speed in speeds:
+        rates = (speed.one_thread, speed.all_threads, speed.in_numpy)
+        table.add_row(
+            speed.problem,
+            speed.ground,
+            *(f"{rate:,.0f}" for rate in rates),
+            f"{speed.one_thread / speed.in_numpy:.0f}",
+            f"{speed.share_of_peak:.0%}",
+        )
+    return table
+
+
+def work_table(peaks: Mapping[str, float], speeds: Sequence[KernelSpeed]) -> Table:
+    """Operations an evaluation, and what one core does at most."""
+    table = _table("Operations an evaluation, and a second at most on one core", "problem")
+    for kind in ("ground", *peaks, "least us"):
+        table.add_column(kind, justify="right", no_wrap=True)
+    for speed in speeds:
+        counts = (f"{speed.work[kind]:,.0f}" for kind in peaks)
+        table.add_row(speed.problem, speed.ground, *counts, f"{1e6 * speed.least_s:.2f}")
+    table.add_row("a second at most", "", *(f"{rate:.1e}" for rate in peaks.values()), "")
+    return table
+
+
+def together_table(figures: Sequence[Mapping[str, Any]]) -> Table:
+    """Plans of all vehicles together."""
+    table = _table("All vehicles together", "scenario")
+    for heading in (
+        "method",
+        "seeds",
+        "best km",
+        "gap %",
+        "quartiles",
+        *(f"in {100 * t:g} %" for t in TARGETS),
+        "plan s",
+    ):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for row in figures:
+        gap, times = row["gap"], row["plan_s"]
+        table.add_row(
+            row["scenario"],
+            row["method"],
+            str(row["runs"]),
+            "-" if row["best_km"] is None else f"{row['best_km']:.3f}",
+            _percent(gap["median"]),
+            f"{_percent(gap['q1'])} .. {_percent(gap['q3'])}",
+            *(f"{rate:.0%}" for rate in row["success_rate"].values()),
+            "-" if times is None else f"{times['median']:.2f}",
+        )
+    return table
+
+
+def _table(title: str, first: str = "method") -> Table:
     table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("method", no_wrap=True)
+    table.add_column(first, no_wrap=True)
     return table
 
 

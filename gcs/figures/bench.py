@@ -92,12 +92,9 @@ def _gaps(axes: Axes, comparison: Comparison, limit: Limit, column: int, problem
             ]
         )
         low, middle, high = np.quantile(gaps, [0.25, 0.5, 0.75], axis=0, method="inverted_cdf")
+        bottom, top = np.clip([low, high], LEAST_GAP, MOST_GAP)
         axes.fill_between(
-            used,
-            *(np.clip(g, LEAST_GAP, 2 * MOST_GAP) for g in (low, high)),
-            color=look["color"],
-            alpha=0.13,
-            linewidth=0,
+            used, bottom, top, where=np.isfinite(high).tolist(), color=look["color"], alpha=0.13, linewidth=0
         )
         known = np.isfinite(middle)
         axes.plot(used[known], np.maximum(middle[known], LEAST_GAP), **look)

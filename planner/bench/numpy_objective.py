@@ -130,7 +130,8 @@ def _collisions(corners: FloatArray, legs: FloatArray, obstacles: FloatArray) ->
             point = start + t[..., None] * legs
             beside, above = np.hypot(point[..., 0], point[..., 1]) - radius, point[..., 2] - top
             corner = np.hypot(np.maximum(beside, 0.0), np.maximum(above, 0.0))
-            return np.where((beside > 0.0) & (above > 0.0), corner, np.maximum(beside, above))
+            signed: FloatArray = np.where((beside > 0.0) & (above > 0.0), corner, np.maximum(beside, above))
+            return signed
 
         low, high = np.zeros(legs.shape[:2]), np.ones(legs.shape[:2])
         for _ in range(STEPS):
