@@ -2,6 +2,7 @@
 
 import typer
 
+from gcs.cli.bench import bench
 from gcs.cli.demo import demo
 from gcs.cli.export import export
 from gcs.cli.fly import fly
@@ -16,5 +17,5 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (demo, plan, sim, fly, export):
+for command in (demo, plan, sim, fly, export, bench):
     app.command()(command)

@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from sitl.config import Arm
 
 
-def _finite(value: float | None) -> float | None:
+def finite(value: float | None) -> float | None:
+    """An option's number, if it is one."""
     if value is not None and not math.isfinite(value):
         raise typer.BadParameter(f"{value} is not a finite number")
     return value
@@ -31,7 +32,7 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON on standard
 DelayOption = Annotated[
     float | None,
     typer.Option(
-        "--delay", metavar="S", min=0.0, max=60.0, callback=_finite, help="Delay of the corrections in seconds."
+        "--delay", metavar="S", min=0.0, max=60.0, callback=finite, help="Delay of the corrections in seconds."
     ),
 ]
 NoCorrectionsOption = Annotated[
@@ -41,7 +42,7 @@ NoNeighboursOption = Annotated[bool, typer.Option("--no-neighbours", help="Keep 
 SpeedOption = Annotated[
     float,
     typer.Option(
-        "--speed", metavar="X", min=0.0, callback=_finite, help="Simulated seconds a second; 0 for as fast as it goes."
+        "--speed", metavar="X", min=0.0, callback=finite, help="Simulated seconds a second; 0 for as fast as it goes."
     ),
 ]
 

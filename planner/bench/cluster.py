@@ -67,7 +67,7 @@ def connect(address: str) -> Cluster:
 def _client(address: str) -> Iterator[Any]:
     try:
         from distributed import Client
-        from distributed.comm import connect as knock
+        from distributed.comm.core import connect as knock
     except ImportError:
         raise InputError("--cluster: needs dask's distributed; pip install 'skein-gcs[cluster]'") from None
 

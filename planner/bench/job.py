@@ -13,10 +13,11 @@ import numpy.typing as npt
 from planner.bench.methods import METHODS, Method
 from planner.bench.problems import BenchProblem, bench_problem
 from planner.bench.trace import Stop, Tracer
-from planner.cost.kernel import evaluate
 
 FloatArray = npt.NDArray[np.float64]
 
+WARM_UP = 400
+"""Evaluations of a first search whose time does not count."""
 PILOT = 40
 """Evaluations a number of the run that measures how many a method will manage in its time."""
 RESTART_ABOVE = 0.05
@@ -89,7 +90,7 @@ def run_job(job: Job) -> Run:
         raise RuntimeError(f"{job.problem} is {problem.digest} here, not {job.digest}: another version of skein?")
     numba.set_num_threads(1)
     method = METHODS[job.method]
-    evaluate(np.zeros((1, problem.dimension)), problem.problem, "graded")  # have it compiled
+    _searched(method, problem, WARM_UP, Tracer(WARM_UP, None))  # what must be compiled or imported now is
     if job.limit.cpu_s:
         budget = _budget_in(job.limit.cpu_s, problem, method)
         tracer = Tracer(None, job.limit.cpu_s)
@@ -120,7 +121,12 @@ def _budget_in(cpu_s: float, problem: BenchProblem, method: Method) -> int:
     evaluations = PILOT * problem.dimension
     tracer = Tracer(evaluations, None)
     start = time.process_time()
-    with suppress(Stop):
-        method(problem, evaluations, 0, tracer)
+    _searched(method, problem, evaluations, tracer)
     took_s = max(time.process_time() - start, 1e-4)
     return max(evaluations, round(tracer.evaluations * cpu_s / took_s))
+
+
+def _searched(method: Method, problem: BenchProblem, evaluations: int, tracer: Tracer) -> None:
+    """A search that does not count."""
+    with suppress(Stop):
+        method(problem, evaluations, 0, tracer)

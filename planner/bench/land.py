@@ -18,10 +18,8 @@ PAD_M = 2500.0, 5000.0
 
 def posts_m(size_m: tuple[float, float, float]) -> tuple[FloatArray, FloatArray]:
     """x (nx,) and y (ny,) of the posts of an area."""
-    return (
-        np.arange(round(size_m[0] / SPACING_M) + 1) * SPACING_M,
-        np.arange(round(size_m[1] / SPACING_M) + 1) * SPACING_M,
-    )
+    x, y = (SPACING_M * np.arange(round(size / SPACING_M) + 1, dtype=np.float64) for size in size_m[:2])
+    return x, y
 
 
 def fractal_m(rng: np.random.Generator, size_m: tuple[float, float, float], relief_m: float) -> FloatArray:
@@ -33,14 +31,16 @@ def fractal_m(rng: np.random.Generator, size_m: tuple[float, float, float], reli
         heights += amplitude * _octave(rng, x / scale, y / scale)
         scale, amplitude = scale / 2.0, amplitude / 2.0
     low, high = heights.min(), heights.max()
-    return relief_m * (heights - low) / (high - low)
+    relief: FloatArray = relief_m * (heights - low) / (high - low)
+    return relief
 
 
 def level_pad_m(heights_m: FloatArray, size_m: tuple[float, float, float], centre_m: FloatArray) -> FloatArray:
     """The same ground, level at 0 around a place, where an aircraft is launched."""
     x, y = posts_m(size_m)
     distance = np.sqrt((x - centre_m[0]) ** 2 + (y[:, None] - centre_m[1]) ** 2)
-    return heights_m * smooth_step((distance - PAD_M[0]) / (PAD_M[1] - PAD_M[0]))
+    level: FloatArray = heights_m * smooth_step((distance - PAD_M[0]) / (PAD_M[1] - PAD_M[0]))
+    return level
 
 
 def smooth_step(x: FloatArray) -> FloatArray:

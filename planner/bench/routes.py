@@ -52,4 +52,5 @@ def clear_of_route(cylinders: FloatArray, route_m: FloatArray, keep_m: float) ->
     distances = np.hypot(points[:, 0] - cylinders[:, 0, None], points[:, 1] - cylinders[:, 1, None]).min(
         axis=1, initial=np.inf
     )
-    return cylinders[distances > cylinders[:, 2] + keep_m + ROOM_M]
+    clear: FloatArray = cylinders[distances > cylinders[:, 2] + keep_m + ROOM_M]
+    return clear
