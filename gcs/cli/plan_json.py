@@ -11,7 +11,7 @@ from planner.verify import verify
 
 
 def plan_json(plan: FormationPlan, scenario: Scenario) -> dict[str, Any]:
-    """plan.json with, for each UAV and for all together, lower bound, best-known and gap; and what the verifier found."""
+    """plan.json with, for each UAV and for all together, lower bound, best-known and gap; and what is verified."""
     alone, together = standings(plan, scenario)
     report = verify(plan, scenario)
     values = plan.as_json()
