@@ -69,6 +69,8 @@ class FormationPlan:
         method: of the search, or "slots".
         uavs: one a vehicle.
         compile_s, plan_s: wall time of compilation and of planning without it.
+        slot_scale: for each corner of the route of slots, what their sideways offsets are multiplied by to fit.
+        slot_stagger: how they pass it: 0 as in their pattern, 1 staggered, 2 in single file.
     """
 
     scenario: str
@@ -77,6 +79,8 @@ class FormationPlan:
     uavs: tuple[UavPlan, ...]
     compile_s: float
     plan_s: float
+    slot_scale: tuple[float, ...] = ()
+    slot_stagger: tuple[int, ...] = ()
 
     def references(self, scenario: Scenario) -> dict[int, Reference]:
         """The reference of each vehicle by sysid, built from its mission as an endpoint builds it."""
@@ -96,6 +100,8 @@ class FormationPlan:
             "method": self.method,
             "compile_s": self.compile_s,
             "plan_s": self.plan_s,
+            "slot_scale": list(self.slot_scale),
+            "slot_stagger": list(self.slot_stagger),
             "uavs": [
                 {
                     "sysid": uav.sysid,
@@ -136,6 +142,8 @@ def load_plan(path: Path) -> FormationPlan:
             uavs=tuple(_uav(entry) for entry in data["uavs"]),
             compile_s=data["compile_s"],
             plan_s=data["plan_s"],
+            slot_scale=tuple(data.get("slot_scale", ())),
+            slot_stagger=tuple(data.get("slot_stagger", ())),
         )
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"{path}: not a plan: {type(error).__name__} {error}; plan it again") from None

@@ -36,14 +36,16 @@ def flyable(airspeed_m_s: float, climb_m_s: float, slowest_m_s: float, fastest_m
 def slope_range(scenario: Scenario, ground_speed_m_s: float) -> tuple[float, float]:
     """Steepest descent and climb, dz/ds, at a ground speed in still air.
 
-    The smaller of the scenario's angle, the climb rates, and what `POWER_SHARE` of the power gives.
+    The smaller of the scenario's angle, the climb rates, what `POWER_SHARE` of the power gives, and the glide without
+    any: steeper, it would arrive early.
     """
     airframe = scenario.airframe.airframe()
     limit = math.tan(math.radians(scenario.limits.climb_max_deg))
     weight = airframe.mass_kg * GRAVITY_M_S2
-    spare = POWER_SHARE * thrust_max_n(ground_speed_m_s, airframe) - drag_n(ground_speed_m_s, weight, airframe)
+    drag = drag_n(ground_speed_m_s, weight, airframe)
+    spare = POWER_SHARE * thrust_max_n(ground_speed_m_s, airframe) - drag
     by_power = math.tan(math.asin(min(1.0, max(0.0, spare / weight))))
     return (
-        -min(limit, -airframe.climb_rate_min_m_s / ground_speed_m_s),
+        -min(limit, -airframe.climb_rate_min_m_s / ground_speed_m_s, drag / weight),
         min(limit, airframe.climb_rate_max_m_s / ground_speed_m_s, by_power),
     )

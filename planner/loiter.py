@@ -4,10 +4,16 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from scipy.spatial import cKDTree
+
 from missions.errors import InputError
 
 STACK_M = 40.0
 """Between the altitudes of circles that would come too close (MODEL, section 5)."""
+
+TOLERANCE_M = 0.05
+"""What the wire's resolution takes from that."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +46,18 @@ def stack(names: Sequence[str], circles: Sequence[Circle], separation_m: float, 
             )
         stacked.append(lifted)
     return stacked
+
+
+def meeting(circles: Sequence[Circle], separation_m: float) -> list[tuple[int, int]]:
+    """Pairs of circles, in order, that come nearer than `separation_m` and are not `STACK_M` apart in altitude."""
+    centres = np.array([(circle.x_m, circle.y_m) for circle in circles])
+    reach = separation_m + 2.0 * max(circle.radius_m for circle in circles)
+    return [
+        (i, j)
+        for i, j in sorted(cKDTree(centres).query_pairs(reach))
+        if _gap_m(circles[i], circles[j]) < separation_m - TOLERANCE_M
+        and abs(circles[i].z_m - circles[j].z_m) < STACK_M - TOLERANCE_M
+    ]
 
 
 def _gap_m(a: Circle, b: Circle) -> float:

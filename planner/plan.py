@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import count
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +14,11 @@ from missions.errors import InputError
 from missions.reference.reference import fillet_radius_m
 from missions.scenario import Scenario
 from planner.cost.constraints import with_progress
-from planner.cost.kernel import INFEASIBLE_KM, evaluate
+from planner.cost.kernel import INFEASIBLE_KM, evaluate, path_cost
 from planner.cost.problem import NO_MARGINS, PathProblem, path_problem
-from planner.find_path import METHODS, NO_WISH, SKEIN, PathFound, find_path, vehicle_problem
+from planner.find_path import EVALUATIONS, METHODS, NO_WISH, SKEIN, PathFound, find_path, vehicle_problem
+from planner.find_route import FindPath, find_route
+from planner.fit_slots import fit_slots
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from planner.infeasible import require_feasible, require_reachable
 from planner.lengthen import too_short
@@ -24,7 +27,7 @@ from planner.loiter import Circle, stack
 from planner.priority import search_alone, without_conflicts
 from planner.schedule import Schedule, common_arrival, flyable_at
 from planner.skein.search import skein_path
-from planner.slots import slot_path_m, slot_schedule
+from planner.slots import route_of
 from planner.verify import VerificationReport, require, verify
 from planner.write_mission import write_mission
 
@@ -32,6 +35,8 @@ FloatArray = npt.NDArray[np.float64]
 
 SLOTS = "slots"
 """The method of a scenario whose vehicles have slots on a route: there is nothing to search for."""
+ROUTE_STREAM = 2
+"""Purpose of the random streams of searches for a route, beside seed and attempt."""
 ATTEMPTS = 4
 """Plans of one UAV, each with its own chance and wider margins, before planning gives up."""
 
@@ -66,7 +71,8 @@ def plan(
     Args:
         scenario: what to plan.
         seed: of all chance; the scenario's unless given.
-        method: one of `planner.find_path.METHODS`; the scenario's unless given. Slots need no search.
+        method: one of `planner.find_path.METHODS`; the scenario's unless given. Slots need none; their route,
+            where it is searched, is so by `skein`.
         progress: told of every search, from several threads.
 
     Raises:
@@ -79,23 +85,26 @@ def plan(
     if seed < 0:
         raise InputError(f"seed {seed}: must be 0 or more")
     start = time.perf_counter()
-    _compile(scenario)
+    _compile(scenario, method)
     compiled = time.perf_counter()
     if method == SLOTS:
-        result, report = _on_slots(scenario, seed)
+        result, report = _on_slots(scenario, seed, progress or (lambda _: None))
         require(report)
     else:
         result = _searched(scenario, seed, method, progress or (lambda _: None))
     return replace(result, compile_s=compiled - start, plan_s=time.perf_counter() - compiled)
 
 
-def _compile(scenario: Scenario) -> None:
+def _compile(scenario: Scenario, method: str) -> None:
     """Have the kernels compiled, or loaded from their cache, by one use."""
     problem = path_problem(
         scenario, scenario.vehicles[0], np.empty((0, 2, 4)), scenario.airframe.airspeed_cruise_m_s, NO_MARGINS
     )
-    evaluate(np.zeros((1, 3)), problem, "graded")
-    skein_path(problem, 1, budget=200, seed=0, report=lambda *_: None)
+    path_cost(problem.corners_m([]), problem, False, np.empty(5))
+    if method == SKEIN or (scenario.route is not None and scenario.route.is_searched):
+        skein_path(problem, 1, budget=200, seed=0, report=lambda *_: None)
+    elif method != SLOTS:
+        evaluate(np.zeros((1, 3)), problem, "graded")
     with_progress(problem.corners_m([]), problem)
     one, airframe = np.ones(1), scenario.airframe.airframe()
     flyable_at(one, one, one, one, scenario.wind.forecast_m_s, airspeed_range_m_s(scenario), airframe)
@@ -141,20 +150,39 @@ def _searched(scenario: Scenario, seed: int, method: str, progress: Progress) ->
     raise AssertionError("a UAV is planned again at most ATTEMPTS times")
 
 
-def _on_slots(scenario: Scenario, seed: int) -> tuple[FormationPlan, VerificationReport]:
-    """Every slot's path and schedule; what they cost, without a search."""
+def _on_slots(scenario: Scenario, seed: int, progress: Progress) -> tuple[FormationPlan, VerificationReport]:
+    """Every slot's path and schedule, as wide as they fit the route; what they cost, without a search of their own."""
     assert scenario.route is not None
+    if scenario.route.is_searched:
+        slots = find_route(scenario, _route_finder(scenario, seed, progress))
+    else:
+        slots = fit_slots(scenario, route_of(scenario))
     paths = []
-    for vehicle in scenario.vehicles:
-        corners = slot_path_m(scenario, vehicle)
+    for vehicle, corners in zip(scenario.vehicles, slots.paths_m, strict=True):
         problem = path_problem(
             scenario, vehicle, np.empty((0, len(corners), 4)), scenario.route.ground_speed_m_s, NO_MARGINS
         )
         paths.append(PathFound(problem, corners, 0.0, 0, ()))
-    schedules = [
-        slot_schedule(scenario, vehicle, path.corners_m) for vehicle, path in zip(scenario.vehicles, paths, strict=True)
-    ]
-    return _assembled(scenario, seed, SLOTS, paths, schedules)
+    result, report = _assembled(scenario, seed, SLOTS, paths, slots.schedules)
+    scale, stagger = tuple(slots.fit.scale.tolist()), tuple(slots.fit.stagger.tolist())
+    return replace(result, slot_scale=scale, slot_stagger=stagger), report
+
+
+def _route_finder(scenario: Scenario, seed: int, progress: Progress) -> FindPath:
+    """Searches for routes, each with its own chance."""
+    settings, attempts = scenario.search, count()
+    budget = settings.population * settings.iterations * EVALUATIONS
+
+    def find(problem: PathProblem, waypoints: int) -> FloatArray | None:
+        def tell(evaluations: int, best_km: float) -> None:
+            feasible = best_km if best_km < INFEASIBLE_KM else None
+            progress(PlanProgress(0, 1, "route", evaluations / budget, feasible))
+
+        chance = np.random.SeedSequence([seed, ROUTE_STREAM, next(attempts)])
+        found = skein_path(problem, waypoints, budget=budget, seed=int(chance.generate_state(1)[0]), report=tell)
+        return problem.corners_m(found.x) if found.fun < INFEASIBLE_KM else None
+
+    return find
 
 
 def _assembled(
@@ -193,5 +221,6 @@ def _assembled(
 
 def _terms(corners_m: FloatArray, problem: PathProblem) -> FitnessTerms:
     """The objective's terms of a path that keeps to all limits: the same in both readings."""
-    _, terms = evaluate(corners_m[1:-1].reshape(1, -1), problem, "published")
-    return FitnessTerms(*terms[0].tolist())
+    terms = np.empty(5)
+    path_cost(corners_m, problem, False, terms)
+    return FitnessTerms(*terms.tolist())

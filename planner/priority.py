@@ -13,7 +13,7 @@ import numpy as np
 
 from missions.scenario import Scenario
 from planner.cost.constraints import with_progress
-from planner.cost.kernel import evaluate
+from planner.cost.kernel import path_cost
 from planner.cost.problem import PLANNING_MARGINS
 from planner.find_path import PathFound, vehicle_problem
 from planner.infeasible import require_feasible
@@ -85,6 +85,7 @@ def without_conflicts(scenario: Scenario, alone: Sequence[PathFound], search: Se
 def conflict_km(scenario: Scenario, i: int, path: PathFound, other: PathFound) -> float:
     """What a path costs more, by f_C, for one other UAV (9)-(10)."""
     there = with_progress(other.corners_m, other.problem)
-    problem = vehicle_problem(scenario, scenario.vehicles[i], [there])
-    _, terms = evaluate(path.corners_m[1:-1].reshape(1, -1), problem._replace(obstacles=np.empty((0, 5))), "graded")
-    return float(terms[0, 3])
+    problem = vehicle_problem(scenario, scenario.vehicles[i], [there])._replace(obstacles=np.empty((0, 5)))
+    terms = np.empty(5)
+    path_cost(path.corners_m, problem, True, terms)
+    return float(terms[3])

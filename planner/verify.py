@@ -14,6 +14,7 @@ from missions.reference import Reference
 from missions.scenario import Scenario
 from planner import checks
 from planner.formation_plan import FormationPlan, UavPlan
+from planner.loiter import STACK_M, Circle, meeting
 from planner.proof.flight import SpareSpeeds, spare_speeds
 from planner.proof.separation import Separations, separations
 from planner.proof.surroundings import Surroundings, surroundings
@@ -105,6 +106,7 @@ def verify(plan: FormationPlan, scenario: Scenario) -> VerificationReport:
     around = surroundings(tracks, references, scenario)
     spare = spare_speeds(tracks, scenario)
     violations = _too_near(plan, references, apart, scenario.limits.separation_m)
+    violations += _loiters_meet(plan, references, scenario.limits.separation_m)
     uavs = []
     for row, (uav, reference) in enumerate(zip(plan.uavs, references, strict=True)):
         path = checks.flown(uav.mission, reference, row, scenario)
@@ -174,3 +176,18 @@ def _too_near(
         )
         violations.append(Violation(second.sysid, text))
     return violations
+
+
+def _loiters_meet(plan: FormationPlan, references: Sequence[Reference], wanted_m: float) -> list[Violation]:
+    """The later UAV's violation of each pair that loiters too near to each other."""
+    circles = [
+        Circle(*reference.target_m[:2], reference.loiter_z_m, abs(reference.loiter_radius_m))
+        for reference in references
+    ]
+    return [
+        Violation(
+            plan.uavs[j].sysid,
+            f"{plan.uavs[j].name}: loiters as high as {plan.uavs[i].name} beside it, less than {STACK_M:g} m apart",
+        )
+        for i, j in meeting(circles, wanted_m)
+    ]

@@ -19,7 +19,9 @@ def finite(value: float | None) -> float | None:
 
 ScenarioArgument = Annotated[
     str,
-    typer.Argument(metavar="[SCENARIO|FILE]", help="A scenario that ships (mountains, radars, vee) or a TOML file."),
+    typer.Argument(
+        metavar="[SCENARIO|FILE]", help="A scenario that ships (mountains, radars, ridge, vee) or a TOML file."
+    ),
 ]
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run, as made by `skein plan`.")]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="New folder for the run.")]

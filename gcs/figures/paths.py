@@ -69,6 +69,11 @@ def ground_below(paths: Mapping[int, FloatArray], environment: Environment) -> G
         high = np.maximum(high, (centre_x + radius, centre_y + radius))
     longer = float((high - low).max())
     low, high = low - MARGIN * longer, high + MARGIN * longer
+    terrain = environment.terrain
+    if len(terrain.posts):  # beyond the raster nothing is known of the ground
+        corner, spacing = np.array([terrain.x0_m, terrain.y0_m]), (terrain.spacing_x_m, terrain.spacing_y_m)
+        low = np.maximum(low, corner)
+        high = np.minimum(high, corner + np.array(spacing) * (np.array(terrain.posts.shape[::-1]) - 1))
     cells = np.maximum(2, np.ceil(GROUND_CELLS * (high - low) / (high - low).max())).astype(int)
     x, y = (np.linspace(low[i], high[i], cells[i]) for i in (0, 1))
-    return Ground(x, y, ground_heights_m(*np.meshgrid(x, y), environment.terrain))
+    return Ground(x, y, ground_heights_m(*np.meshgrid(x, y), terrain))

@@ -30,6 +30,8 @@ def _vehicles(scenario: Scenario) -> Iterator[str]:
         yield f"vehicles[{with_slot.index(True)}].slot: there is no [route] for it; add one, or give origin and target"
     if any(with_slot) != all(with_slot):
         yield f"vehicles[{with_slot.index(False)}]: has no slot but others have; slots and own targets do not mix"
+    if scenario.shape is not None and scenario.route is None:
+        yield "shape: there is no [route] for it; add one"
     if scenario.route is not None and not any(with_slot):
         yield "route: no vehicle has a slot on it; remove it, or give the vehicles slots"
 

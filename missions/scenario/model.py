@@ -1,11 +1,12 @@
 """The keys of a scenario file. Lengths in metres, speeds in m/s, angles in degrees, times in seconds."""
 
 import math
+from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Literal, Self, TypedDict
+from typing import Annotated, Any, Literal, Self, TypedDict
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationInfo, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, ValidationInfo, model_validator
 
 from missions.airframe import Airframe
 from missions.elevation import read_raster
@@ -14,6 +15,7 @@ from missions.environment.raster import Raster
 from missions.environment.terrain import NO_WAVE
 from missions.errors import InputError
 from missions.frame import LocalFrame
+from missions.scenario.shape import Pattern, pattern_slots, width_of
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
@@ -146,10 +148,60 @@ class VehicleModel(Keys):
 
 
 class RouteModel(Keys):
-    """The polyline that a slot formation flies, and the ground speed along it."""
+    """The polyline that a slot formation flies, or its ends, between which one is searched; and the ground speed."""
 
     points: Annotated[tuple[Point, ...], Field(min_length=2)]
+    """The straight line where only the ends are given: slots start and end beside it."""
+    origin: Point | None = None
+    target: Point | None = None
     ground_speed_m_s: Positive
+
+    @model_validator(mode="before")
+    @classmethod
+    def _straight_between_ends(cls, data: Any) -> Any:
+        if isinstance(data, dict) and data.get("origin") is not None and data.get("target") is not None:
+            ends, points = [data["origin"], data["target"]], data.get("points")
+            if points is not None and list(points) != ends:
+                raise ValueError("takes either points, or origin and target between which a route is searched")
+            return {**data, "points": ends}
+        return data
+
+    @property
+    def is_searched(self) -> bool:
+        """Whether only its ends are given."""
+        return self.origin is not None and self.target is not None
+
+
+class ShapeModel(Keys):
+    """A formation's pattern, from which vehicles' slots follow."""
+
+    pattern: Pattern
+    count: Annotated[int, Field(strict=True, ge=1, le=250)] | None = None
+    """Vehicles; as many as are listed unless given."""
+    spacing_m: Positive | None = None
+    """Between neighbours; or"""
+    width_m: Positive | None = None
+    """from the leftmost to the rightmost slot."""
+
+    @model_validator(mode="after")
+    def _measured(self) -> Self:
+        measures = [key for key in ("spacing_m", "width_m") if getattr(self, key) is not None]
+        if self.pattern == "custom":
+            if measures:
+                raise ValueError(f"a custom shape's slots stand at the vehicles; leave {measures[0]} out")
+        elif len(measures) != 1:
+            raise ValueError("give either spacing_m (between neighbours) or width_m (of the whole)")
+        elif self.pattern == "column" and self.width_m is not None:
+            raise ValueError("a column has no width; give spacing_m")
+        return self
+
+    def slots(self, count: int) -> list[SlotModel]:
+        """Of `count` vehicles, the leader's first; none for a custom shape."""
+        if self.pattern == "custom":
+            return []
+        places = pattern_slots(self.pattern, count)
+        spacing_m = self.spacing_m or (self.width_m or 0.0) / (width_of(places) or 1.0)
+        return [SlotModel(behind_m=spacing_m * behind, left_m=spacing_m * left) for behind, left in places]
 
 
 class AirframeModel(Keys):
@@ -262,7 +314,9 @@ class Scenario(Keys):
     terrain: TerrainModel = TerrainModel()
     radars: tuple[RadarModel, ...] = ()
     obstacles: tuple[ObstacleModel, ...] = ()
+    shape: ShapeModel | None = None
     vehicles: Annotated[tuple[VehicleModel, ...], Field(min_length=1)]
+    """Listed, or made for a shape's slots."""
     route: RouteModel | None = None
     airframe: AirframeModel
     formation: FormationModel = FormationModel()
@@ -270,6 +324,35 @@ class Scenario(Keys):
     limits: LimitsModel
     search: SearchModel = SearchModel()
     _raster: Raster | None = PrivateAttr(None)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _take_slots(cls, data: Any) -> Any:
+        """Vehicles that are listed without a slot take the shape's in order; without a list, they are made for it."""
+        if not isinstance(data, dict) or data.get("shape") is None:
+            return data
+        try:
+            shape = ShapeModel.model_validate(data["shape"])
+        except ValidationError:
+            return data  # told of as the shape's own
+        listed = data.get("vehicles")
+        count = shape.count or (len(listed) if isinstance(listed, Sequence) else 0)
+        if listed is None:
+            slots = shape.slots(count)
+            vehicles: list[Any] = [
+                {"name": f"wing{k}" if k else "lead", "sysid": k + 1, "slot": slot} for k, slot in enumerate(slots)
+            ]
+            return {**data, "vehicles": vehicles} if vehicles else data
+        if isinstance(listed, Sequence) and count != len(listed):
+            raise ValueError(f"shape.count: {count}, but {len(listed)} vehicles are listed; leave one of the two out")
+        slots = shape.slots(count)
+        if not slots:
+            return data
+        taken = [
+            {"slot": slot, **vehicle} if isinstance(vehicle, dict) and "origin" not in vehicle else vehicle
+            for vehicle, slot in zip(listed, slots, strict=True)
+        ]
+        return {**data, "vehicles": taken}
 
     @model_validator(mode="after")
     def _read_raster(self, info: ValidationInfo) -> Self:

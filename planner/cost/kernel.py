@@ -9,6 +9,7 @@ import numpy.typing as npt
 from missions.environment import Terrain
 from planner.compiled import jit, parallel_jit, prange
 from planner.cost.constraints import broken_limits
+from planner.cost.leg_box import apart, leg_box
 from planner.cost.obstacles import least_wall_distance_m
 from planner.cost.problem import PathProblem
 from planner.cost.radar import radar_integral_m
@@ -83,7 +84,7 @@ def _evaluate(
 @jit
 def path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
     """f of one path of (n + 1, 3) corners (3), kilometres; fills in its five terms."""
-    bounds, terrain = problem.bounds, problem.terrain
+    bounds, terrain, radars, obstacles = problem.bounds, problem.terrain, problem.radars, problem.obstacles
     legs = len(corners) - 1
     arcs = np.empty(legs)
     broken, excess = broken_limits(corners, bounds, arcs)
@@ -110,11 +111,15 @@ def path_cost(corners: Any, problem: Any, graded: Any, terms: Any) -> float:
             broken += 1
             excess += shortfall / 1000.0
 
-        for i in range(len(problem.radars)):
-            radar += radar_integral_m(p, q, problem.radars[i])
+        box = leg_box(p, q)
+        for i in range(len(radars)):
+            if not apart(box, radars[i, 0], radars[i, 1], radars[i, 3]):
+                radar += radar_integral_m(p, q, radars[i])
 
-        for i in range(len(problem.obstacles)):
-            missing = problem.obstacles[i, 4] - least_wall_distance_m(p, q, problem.obstacles[i])
+        for i in range(len(obstacles)):
+            if apart(box, obstacles[i, 0], obstacles[i, 1], obstacles[i, 2] + obstacles[i, 4]):
+                continue
+            missing = obstacles[i, 4] - least_wall_distance_m(p, q, obstacles[i])
             if missing > 0.0:
                 collision += 1.0 + (missing / 1000.0 if graded else 0.0)
 

@@ -12,6 +12,7 @@ from planner.compiled import compile_shared, jit
 from planner.cost.raster import least_height_above_raster_m
 
 DIP_M = 5.0
+SHORT_M = 1e-6
 
 _analytic_height_m = compile_shared(analytic_height_m)
 
@@ -35,17 +36,19 @@ def leg_clearance_m(
         return exact
     base_m, wave, peaks = terrain.base_m, terrain.wave, terrain.peaks
     steps = _steps(p, q, wave, peaks)
-    if s0_m < climb_out_m:  # the ramp's end is a corner of what is wanted, which curvature knows nothing of
-        steps = max(steps, int((s1_m - s0_m) / 100.0) + 1)
+    # The ramp's end is a corner of what is wanted, which curvature knows nothing of: one sample more, right there, for
+    # the shortfall; it moves along the leg, which a sample of the least clearance must not.
+    ramp_end = (climb_out_m - s0_m) / max(s1_m - s0_m, SHORT_M)
+    samples = steps + 2 if 0.0 < ramp_end < 1.0 else steps + 1
     least = math.inf
     shortfall = -math.inf
     lowest = shortest = 0.0
-    for i in range(steps + 1):
-        t = i / steps
+    for i in range(samples):
+        t = i / steps if i <= steps else ramp_end
         x, y, z = p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])
         clearance = z - _analytic_height_m(x, y, base_m, wave, peaks)
         wanted = clearance_m * min(1.0, (s0_m + t * (s1_m - s0_m)) / climb_out_m)
-        if clearance < least:
+        if i <= steps and clearance < least:
             least, lowest = clearance, t
         if wanted - clearance > shortfall:
             shortfall, shortest = wanted - clearance, t

@@ -11,6 +11,8 @@ from planner.compiled import jit
 from planner.cost.obstacles import wall_distance_and_place
 
 TOUCHING_M = 1e-9
+RIM_M = 1e-3
+"""Inside an obstacle, side and top this equally far away: the nearest place is where they change places."""
 
 
 @jit
@@ -26,10 +28,10 @@ def sphere_distance(p: Any, q: Any, x: float, y: float, z: float) -> tuple[float
 
 
 @jit
-def wall_distance(p: Any, q: Any, obstacle: Any) -> tuple[float, float, float, float, float]:
-    """Least signed distance of the leg from p to q to an obstacle's surface, metres, infinite when it is more than the
-    distance to keep; t; and n (3)."""
-    distance, t = wall_distance_and_place(p, q, obstacle)
+def wall_distance(p: Any, q: Any, obstacle: Any, reach_m: float) -> tuple[float, float, float, float, float]:
+    """Least signed distance of the leg from p to q to an obstacle's surface, metres, infinite when it is more than
+    `reach_m`; t; and n (3)."""
+    distance, t = wall_distance_and_place(p, q, obstacle, reach_m)
     if distance == math.inf:
         return distance, t, 0.0, 0.0, 0.0
     nx, ny = p[0] + t * (q[0] - p[0]) - obstacle[0], p[1] + t * (q[1] - p[1]) - obstacle[1]
@@ -37,6 +39,10 @@ def wall_distance(p: Any, q: Any, obstacle: Any) -> tuple[float, float, float, f
     beside, above = from_axis - obstacle[2], p[2] + t * (q[2] - p[2]) - obstacle[3]
     if above <= 0.0 or (beside > 0.0 and beside >= 1e3 * above):
         sideways, upwards = (1.0, 0.0) if beside >= above else (0.0, 1.0)
+        outwards, rise = (nx * (q[0] - p[0]) + ny * (q[1] - p[1])) / from_axis, q[2] - p[2]
+        if abs(beside - above) < RIM_M and outwards * rise < 0.0:
+            # The larger of two distances is least where they cross: along the leg their mean must not change.
+            sideways, upwards = rise / (rise - outwards), outwards / (outwards - rise)
     elif beside <= 0.0:
         sideways, upwards = 0.0, 1.0
     else:

@@ -12,26 +12,28 @@ from typing import Any
 
 import numpy as np
 
-from missions.environment.terrain import ground_height_and_slope
-from planner.compiled import compile_shared, jit
+from planner.compiled import jit
+from planner.cost.leg_box import apart, leg_box
 from planner.cost.radar import radar_integral_m
 from planner.cost.separation import least_separation_m
 from planner.cost.terrain import leg_clearance_m
 from planner.skein.distances import sphere_distance, wall_distance
+from planner.skein.flown import add_flown_slopes, fly, room_m
+from planner.skein.heights import add_height_slope, ground, ramp_slope
 from planner.skein.radar_slope import add_radar_slope
-
-_ground = compile_shared(ground_height_and_slope)
 
 KM = 1e-3
 LEG_LIMITS = 9
 """Limits of each leg beside those of obstacles, radars and other UAVs."""
 WAYPOINT_LIMITS = 6
+LEVEL_M = 1.0
+"""An altitude deviation below this has less slope than it should: right at 0 it has none."""
 SLOPE_WEIGHT = 3.0
 """Slopes are stiff: a metre of height is worth more than a metre of way."""
 LEAST_CLEARANCE_KM = 0.02
 """A mean clearance below this has no slope in f_T: the limit of clearance drives a path out of the ground."""
-TURN_MOST = 3.0
-"""The half tangent of sharper turns is taken at this angle, radians."""
+TURN_MOST = 2.5
+"""No sharper turn asks for more room than this, radians."""
 
 
 @jit
@@ -56,41 +58,23 @@ def merit(
         limits: (limits_count,), set to c of each limit, km: kept where not above 0.
         gradient: (n + 1, 3), set to the slopes, km / km.
     """
-    bounds = problem.bounds
+    bounds, terrain, obstacles, radars = problem.bounds, problem.terrain, problem.obstacles, problem.radars
     legs = len(corners) - 1
     gradient[:] = 0.0
     limits[:] = -1e3
-    across = np.empty(legs)
-    arcs = np.empty(legs)
-    turns = np.zeros(legs + 1)
-    for k in range(legs):
-        dx, dy = corners[k + 1, 0] - corners[k, 0], corners[k + 1, 1] - corners[k, 1]
-        across[k] = max(math.sqrt(dx * dx + dy * dy), 1e-3)
-        arcs[k] = across[k]
-    for k in range(1, legs):
-        ax, ay = corners[k, 0] - corners[k - 1, 0], corners[k, 1] - corners[k - 1, 1]
-        bx, by = corners[k + 1, 0] - corners[k, 0], corners[k + 1, 1] - corners[k, 1]
-        turns[k] = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
-        half = min(abs(turns[k]), TURN_MOST) / 2.0
-        trim = bounds.fillet_radius_m * (math.tan(half) - half)
-        arcs[k - 1] -= min(trim, 0.3 * across[k - 1])
-        arcs[k] -= min(trim, 0.3 * across[k])
+    across, arcs, turns = np.empty(legs), np.empty(legs), np.empty(legs + 1)
+    fly(corners, bounds.fillet_radius_m, across, turns, arcs)
     passed = np.zeros(legs + 1)
     for k in range(legs):
         passed[k + 1] = passed[k] + arcs[k]
     total = passed[legs]
 
-    turn_slope = np.zeros(legs + 1)  # of the merit in |turn|, arc, and length passed before a corner
-    arc_slope = np.zeros(legs)
-    passed_slope = np.zeros(legs + 1)
+    # slopes of the merit in what depends on all corners before those in the corners are known
+    across_slope, arc_slope = np.zeros(legs), np.zeros(legs)
+    turn_slope, passed_slope = np.zeros(legs + 1), np.zeros(legs + 1)
     other_legs = np.zeros(len(problem.others), np.int64)
     value: float = 0.0
-    clearance_sum = 0.0
-    clearance_weight = np.empty((legs, 3))
-    clearance_place = np.empty(legs)
-    heights = np.empty((legs + 1, 3))
-    for k in range(legs + 1):
-        heights[k] = _ground(corners[k, 0], corners[k, 1], problem.terrain)
+    least_heights, least_places = np.empty(legs), np.empty(legs)
 
     per_leg = LEG_LIMITS + WAYPOINT_LIMITS + len(problem.obstacles) + len(problem.radars) + len(problem.others)
     for k in range(legs):
@@ -130,36 +114,33 @@ def merit(
             half = min(turn, TURN_MOST) / 2.0
             tangent = bounds.fillet_radius_m * math.tan(half)
             tangent_slope = 0.5 * bounds.fillet_radius_m / (math.cos(half) * math.cos(half)) * KM
-            share = 1.0 if k == 0 else 0.5
-            push, added = _limit(i + 5, min(tangent - share * across[k], 2e3) * KM, multipliers, rho, limits)
+            before, after = room_m(k + 1, across)
+            push, added = _limit(i + 5, (tangent - before) * KM, multipliers, rho, limits)
             value += added
-            turn_slope[k + 1] += push * tangent_slope
-            _pull(gradient, k, -push * share * dx / across[k], -push * share * dy / across[k], 0.0)
-            share = 1.0 if k + 2 == legs else 0.5
-            push, added = _limit(i + 6, min(tangent - share * across[k + 1], 2e3) * KM, multipliers, rho, limits)
+            across_slope[k] -= push * before / across[k]
+            push_after, added = _limit(i + 6, (tangent - after) * KM, multipliers, rho, limits)
             value += added
-            turn_slope[k + 1] += push * tangent_slope
-            ex, ey = corners[k + 2, 0] - q[0], corners[k + 2, 1] - q[1]
-            _pull(gradient, k + 1, -push * share * ex / across[k + 1], -push * share * ey / across[k + 1], 0.0)
+            across_slope[k + 1] -= push_after * after / across[k + 1]
+            if turn < TURN_MOST:
+                turn_slope[k + 1] += (push + push_after) * tangent_slope
 
         # clearance
         least, lowest, shortfall, shortest = leg_clearance_m(
-            p, q, passed[k], passed[k + 1], problem.terrain, bounds.clearance_m, bounds.climb_out_m
+            p, q, passed[k], passed[k + 1], terrain, bounds.clearance_m, bounds.climb_out_m
         )
-        clearance_place[k] = lowest
-        clearance_sum += _soft_least(p[2] - heights[k, 0], q[2] - heights[k + 1, 0], least, soft_m, clearance_weight[k])
+        least_heights[k], least_places[k] = least, lowest
         push, added = _limit(i + 7, shortfall * KM, multipliers, rho, limits)
         if added != 0.0:
             value += added
-            _raise(gradient, k, p, q, shortest, -push, problem.terrain)
-            if passed[k] + shortest * arcs[k] < bounds.climb_out_m:
-                ramp = push * bounds.clearance_m / bounds.climb_out_m
-                passed_slope[k] += ramp * (1.0 - shortest)
-                passed_slope[k + 1] += ramp * shortest
+            left = bounds.climb_out_m - passed[k] - shortest * arcs[k]
+            ramp = ramp_slope(p, q, shortest, left, arcs[k], bounds, terrain)
+            add_height_slope(p, q, shortest, ramp * arcs[k], -push, terrain, gradient[k], gradient[k + 1])
+            passed_slope[k] += push * ramp * (1.0 - shortest)
+            passed_slope[k + 1] += push * ramp * shortest
         push, added = _limit(i + 8, -least * KM, multipliers, rho, limits)
         if added != 0.0:
             value += added
-            _raise(gradient, k, p, q, lowest, -push, problem.terrain)
+            add_height_slope(p, q, lowest, 0.0, -push, terrain, gradient[k], gradient[k + 1])
         i += LEG_LIMITS
 
         # the box (1) at the leg's end
@@ -175,28 +156,38 @@ def merit(
                 gradient[k + 1, axis] += push
         i += WAYPOINT_LIMITS
 
-        for j in range(len(problem.obstacles)):
-            distance, t, nx, ny, nz = wall_distance(p, q, problem.obstacles[j])
+        # A thing counts as far as its multiplier reaches; beyond, its term is constant.
+        box = leg_box(p, q)
+        for j in range(len(obstacles)):
+            reach = obstacles[j, 4] + multipliers[i + j] / (rho * KM)
+            distance = math.inf
+            if not apart(box, obstacles[j, 0], obstacles[j, 1], obstacles[j, 2] + reach):
+                distance, t, nx, ny, nz = wall_distance(p, q, obstacles[j], reach)
             if distance < math.inf:
-                push, added = _limit(i + j, (problem.obstacles[j, 4] - distance) * KM, multipliers, rho, limits)
+                push, added = _limit(i + j, (obstacles[j, 4] - distance) * KM, multipliers, rho, limits)
                 value += added
                 _push(gradient, k, t, -push * nx, -push * ny, -push * nz)
-        i += len(problem.obstacles)
+            else:
+                value -= 0.5 * multipliers[i + j] * multipliers[i + j] / rho
+        i += len(obstacles)
 
-        for j in range(len(problem.radars)):
-            radar = problem.radars[j]
+        for j in range(len(radars)):
+            radar = radars[j]
             if crossed[j]:
-                integral = radar_integral_m(p, q, radar)
-                if integral > 0.0:
-                    value += integral * KM
-                    add_radar_slope(p, q, radar, gradient[k], gradient[k + 1])
+                if not apart(box, radar[0], radar[1], radar[3]):
+                    integral = radar_integral_m(p, q, radar)
+                    if integral > 0.0:
+                        value += integral * KM
+                        add_radar_slope(p, q, radar, gradient[k], gradient[k + 1])
+            elif apart(box, radar[0], radar[1], radar[3] + multipliers[i + j] / (rho * KM)):
+                value -= 0.5 * multipliers[i + j] * multipliers[i + j] / rho
             else:
                 distance, t, nx, ny, nz = sphere_distance(p, q, radar[0], radar[1], radar[2])
                 push, added = _limit(i + j, (radar[3] - distance) * KM, multipliers, rho, limits)
                 if added != 0.0:
                     value += added
                     _push(gradient, k, t, -push * nx, -push * ny, -push * nz)
-        i += len(problem.radars)
+        i += len(radars)
 
         start, end = passed[k] / total, passed[k + 1] / total
         for j in range(len(problem.others)):
@@ -224,52 +215,70 @@ def merit(
     value += added
     passed_slope[legs] -= push
 
-    # f_T (5)-(6)
-    least_sum = LEAST_CLEARANCE_KM * legs
-    mean_slope = 0.0
-    if clearance_sum * KM > least_sum:
-        least_sum = clearance_sum * KM
-        mean_slope = -bounds.terrain_constant_km2 * legs / (least_sum * least_sum)
-    value += bounds.terrain_constant_km2 * legs / least_sum
-    if mean_slope != 0.0:
-        for k in range(legs):
-            for end in range(2):
-                weight = mean_slope * clearance_weight[k, end]
-                gradient[k + end, 2] += weight
-                gradient[k + end, 0] -= weight * heights[k + end, 1]
-                gradient[k + end, 1] -= weight * heights[k + end, 2]
-            if clearance_weight[k, 2] > 0.0:
-                weight = mean_slope * clearance_weight[k, 2]
-                _raise(gradient, k, corners[k], corners[k + 1], clearance_place[k], weight, problem.terrain)
+    value += _terrain_cost(corners, problem, soft_m, least_heights, least_places, gradient)
+    value += _altitude_deviation(corners, gradient)
+    later = 0.0
+    for k in range(legs, 0, -1):
+        later += passed_slope[k]
+        arc_slope[k - 1] += later
+    add_flown_slopes(corners, bounds.fillet_radius_m, across, turns, across_slope, turn_slope, arc_slope, gradient)
+    return value
 
-    # f_H (11)
+
+@jit
+def _terrain_cost(
+    corners: Any, problem: Any, soft_m: float, least_heights: Any, least_places: Any, gradient: Any
+) -> float:
+    """f_T (5)-(6), from the least height of each leg above ground and the part of it after which it is reached; a leg's
+    ends count too, softly."""
+    legs = len(corners) - 1
+    heights, weights = np.empty((legs + 1, 3)), np.empty((legs, 3))
+    for k in range(legs + 1):
+        heights[k] = ground(corners[k, 0], corners[k, 1], problem.terrain)
+    clearance_sum = 0.0
+    for k in range(legs):
+        at_start, at_end = corners[k, 2] - heights[k, 0], corners[k + 1, 2] - heights[k + 1, 0]
+        clearance_sum += _soft_least(at_start, at_end, least_heights[k], soft_m, weights[k])
+    least_sum = LEAST_CLEARANCE_KM * legs
+    constant: float = problem.bounds.terrain_constant_km2
+    if clearance_sum * KM <= least_sum:
+        return constant * legs / least_sum
+    least_sum = clearance_sum * KM
+    slope = -constant * legs / (least_sum * least_sum)
+    for k in range(legs):
+        for end in range(2):
+            weight = slope * weights[k, end]
+            gradient[k + end, 0] -= weight * heights[k + end, 1]
+            gradient[k + end, 1] -= weight * heights[k + end, 2]
+            gradient[k + end, 2] += weight
+        if weights[k, 2] > 0.0:
+            add_height_slope(
+                corners[k],
+                corners[k + 1],
+                least_places[k],
+                0.0,
+                slope * weights[k, 2],
+                problem.terrain,
+                gradient[k],
+                gradient[k + 1],
+            )
+    return constant * legs / least_sum
+
+
+@jit
+def _altitude_deviation(corners: Any, gradient: Any) -> float:
+    """f_H (11)."""
+    legs = len(corners) - 1
     mean = 0.0
     for k in range(legs + 1):
         mean += corners[k, 2] / (legs + 1)
     squares = 0.0
     for k in range(legs + 1):
         squares += (corners[k, 2] - mean) * (corners[k, 2] - mean)
-    deviation = max(math.sqrt(squares / legs), 1.0)
-    value += math.sqrt(squares / legs) * KM
+    deviation = math.sqrt(squares / legs)
     for k in range(legs + 1):
-        gradient[k, 2] += (corners[k, 2] - mean) / (legs * deviation)
-
-    # arcs depend on the corners through lengths and turns
-    later = 0.0
-    for k in range(legs, 0, -1):
-        later += passed_slope[k]
-        arc_slope[k - 1] += later
-    for k in range(legs):
-        dx, dy = corners[k + 1, 0] - corners[k, 0], corners[k + 1, 1] - corners[k, 1]
-        slope = arc_slope[k]
-        _pull(gradient, k, slope * dx / across[k], slope * dy / across[k], 0.0)
-    for k in range(1, legs):
-        half_tangent = math.tan(min(abs(turns[k]), TURN_MOST) / 2.0)
-        trim_slope = 0.5 * bounds.fillet_radius_m * half_tangent * half_tangent * KM
-        slope = turn_slope[k] - (arc_slope[k - 1] + arc_slope[k]) * trim_slope
-        if slope != 0.0:
-            _turn(gradient, k, corners, math.copysign(slope, turns[k]), across[k - 1], across[k])
-    return value
+        gradient[k, 2] += (corners[k, 2] - mean) / (legs * max(deviation, LEVEL_M))
+    return deviation * KM
 
 
 @jit
@@ -302,23 +311,6 @@ def _push(gradient: Any, k: int, t: float, x: float, y: float, z: float) -> None
     gradient[k + 1, 0] += t * x
     gradient[k + 1, 1] += t * y
     gradient[k + 1, 2] += t * z
-
-
-@jit
-def _raise(gradient: Any, k: int, p: Any, q: Any, t: float, weight: float, terrain: Any) -> None:
-    """A slope in the height above ground at the part t of leg k."""
-    _, ground_x, ground_y = _ground(p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), terrain)
-    _push(gradient, k, t, -weight * ground_x, -weight * ground_y, weight)
-
-
-@jit
-def _turn(gradient: Any, k: int, corners: Any, slope: float, before: float, after: float) -> None:
-    """A slope in the signed turn at corner k, radians; kilometres a radian, so metres count by `KM`."""
-    ax, ay = corners[k, 0] - corners[k - 1, 0], corners[k, 1] - corners[k - 1, 1]
-    bx, by = corners[k + 1, 0] - corners[k, 0], corners[k + 1, 1] - corners[k, 1]
-    scale_a, scale_b = slope / (KM * before * before), slope / (KM * after * after)
-    _pull(gradient, k - 1, ay * scale_a, -ax * scale_a, 0.0)
-    _pull(gradient, k, -by * scale_b, bx * scale_b, 0.0)
 
 
 @jit

@@ -18,7 +18,7 @@ from planner.skein.descent import polish
 from planner.skein.merit import limits_count
 from planner.skein.routes import RouteGrid
 from planner.skein.sides import classes, on_other_sides, threats
-from planner.skein.starts import bent_paths, routed_paths
+from planner.skein.starts import bent_paths, jumped_paths, routed_paths
 from planner.skein.tightened import tightened
 
 FloatArray = npt.NDArray[np.float64]
@@ -42,12 +42,18 @@ class Stage:
 STAGES = (Stage(3, 40, 1e-4, 6), Stage(3, 60, 1e-5, 3), Stage(3, 100, 1e-6, 1))
 WHOLE = (Stage(3, 40, 1e-4, 3), Stage(5, 80, 1e-5, 1))
 """Of starts beside the best."""
+INSISTENT = (Stage(16, 150, 1e-7, 1),)
+"""From the best of only infeasible paths: its limits may leave a narrow way."""
 WHOLE_DESCENT = 1500
 """Evaluations that a descent takes from start to end, about: a small budget follows fewer starts."""
 SHARE_OF_STARTS = 10
 """No more than the budget over this is spent on looking at starts."""
 LEAST_ALLOWANCE = 50
 """Evaluations below which a descent is not worth its beginning."""
+JUMPS, OTHER_ROUTES = 5, 3
+"""Starts of each round that follows, once nothing better lies beside the best path."""
+GAIN = 1e-4
+"""What counts as better, relative."""
 WEIGHT, SOFTNESS_M = 10.0, 50.0
 """Of limits in the first round, 1 / km, and of (6)."""
 
@@ -102,6 +108,7 @@ class PathSearch:
         budget: evaluations at most; a gradient counts as several.
         seed: of all chance.
         threads: that follow descents.
+        patience: rounds without gain before it ends.
         report: told evaluations and best cost whenever something was tried; may raise to stop.
     """
 
@@ -112,6 +119,7 @@ class PathSearch:
         budget: int,
         seed: int,
         threads: int,
+        patience: float,
         report: Callable[[int, float], None],
     ) -> None:
         self.problem = problem
@@ -125,6 +133,7 @@ class PathSearch:
         self._grid = RouteGrid(problem)
         self._rng = np.random.default_rng(seed)
         self._report = report
+        self._patience = patience
         self._pool = ThreadPoolExecutor(threads)
         inside = [
             any(math.dist(end, radar[:3]) < radar[3] for end in (problem.origin_m, problem.target_m))
@@ -142,8 +151,13 @@ class PathSearch:
                 self._follow([self._descent(start) for start in starts], STAGES)
                 if self.cost_km >= INFEASIBLE_KM:
                     self._follow([self._descent(start, through=True) for start in starts], STAGES)
+                if self.cost_km >= INFEASIBLE_KM:
+                    self._follow([self._descent(self.best_m), self._descent(self.best_m, through=True)], INSISTENT)
                 while self._improve():
                     pass
+                stale = 0
+                while stale < self._patience:
+                    stale = 0 if self._jump() else stale + 1
         except OutOfBudgetError:
             pass
         return PathResult(self.best_m[1:-1].ravel(), self.cost_km, self.evaluations, tuple(self.history))
@@ -223,7 +237,19 @@ class PathSearch:
             again.crossed = self._within | through
             starts.append(again)
         self._follow(starts, WHOLE)
-        return self.cost_km < before - 1e-4 * before
+        return self.cost_km < before * (1.0 - GAIN)
+
+    def _jump(self) -> bool:
+        """Leave the best path by jumps, and for other routes; whether something better was found."""
+        before = self.cost_km
+        jumps = list(jumped_paths(self.best_m, self.problem, JUMPS, self._rng))
+        jumps += list(routed_paths(self._grid, self.problem, self.waypoints, OTHER_ROUTES, 1, self._rng, chance=True))
+        self._follow([self._descent(path) for path in jumps], WHOLE)
+        if self.cost_km < before * (1.0 - GAIN):
+            while self._improve():
+                pass
+            return True
+        return False
 
     def _crosses(self, radar: FloatArray) -> bool:
         legs = zip(self.best_m[:-1], self.best_m[1:], strict=True)
@@ -245,6 +271,7 @@ def skein_path(
     seed: int,
     report: Callable[[int, float], None],
     threads: int | None = None,
+    patience: float = 1,
 ) -> PathResult:
     """Search for the best path of one UAV.
 
@@ -254,6 +281,7 @@ def skein_path(
         budget: evaluations of the objective at most; a gradient counts as `planner.skein.descent.GRADIENT`.
         seed: of all chance; with the budget it decides the result, whatever the number of threads.
         threads: that follow descents; as many as numba uses unless given.
+        patience: rounds of new starts without gain before it ends; infinite to use the whole budget.
         report: told of evaluations used and the best cost, km, whenever something was tried; may raise to stop.
     """
-    return PathSearch(problem, waypoints, budget, seed, threads or numba.get_num_threads(), report).run()
+    return PathSearch(problem, waypoints, budget, seed, threads or numba.get_num_threads(), patience, report).run()

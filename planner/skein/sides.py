@@ -13,7 +13,7 @@ import numpy.typing as npt
 from planner.compiled import jit
 from planner.cost.problem import PathProblem
 from planner.skein.routes import RouteGrid
-from planner.skein.starts import path_along
+from planner.skein.starts import path_along, spacing
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -84,7 +84,7 @@ def on_other_sides(
             continue
         across = off[:2] / max(float(away[k]), 1e-6)
         wall = np.array([[x, y], [x, y]]) + np.outer([-0.2 * wide, WALL_M], across)
-        found.append(path_along(grid.route(wall_m=wall), problem, len(corners_m) - 2, rng))
+        found.append(path_along(grid.route(wall_m=wall), spacing(len(corners_m) - 2, rng), problem))
         if is_radar:
             half = REACH * wide + passed[-1] / len(leg)
             there = passed[k] + t[k] * np.sqrt(length2[k])

@@ -9,7 +9,9 @@ from planner.cost.problem import PathProblem
 TIGHTER_M = 0.5
 """Of every distance; millimetres of path."""
 TIGHTER = 1e-3
-"""Of every slope and radius, relative; of turns in radians."""
+"""Of every radius, relative; of turns in radians."""
+TIGHTER_SLOPES = 3e-3
+"""Of slopes, relative: on a leg of 300 m that is centimetres of height."""
 ENDS_M = 1e-3
 """What is left at origin and target, where these stand closer than the tightened distance."""
 
@@ -43,8 +45,8 @@ def tightened(problem: PathProblem) -> PathProblem:
         leg_max_m=b.leg_max_m - TIGHTER_M,
         length_min_m=b.length_min_m + TIGHTER_M,
         turn_max=b.turn_max - TIGHTER,
-        slope_min=b.slope_min * (1.0 - TIGHTER),
-        slope_max=b.slope_max * (1.0 - TIGHTER),
+        slope_min=b.slope_min * (1.0 - TIGHTER_SLOPES),
+        slope_max=b.slope_max * (1.0 - TIGHTER_SLOPES),
         clearance_m=max(b.clearance_m, min(b.clearance_m + TIGHTER_M, at_target - ENDS_M)),
         fillet_radius_m=b.fillet_radius_m * (1.0 + TIGHTER),
     )

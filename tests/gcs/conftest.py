@@ -108,7 +108,7 @@ def _straight_uav(scenario: Scenario, vehicle: VehicleModel) -> UavPlan:
     ground_speed = MissionItem(Command.DO_CHANGE_SPEED, Frame.MISSION, 1.0, math.dist(*ends[:, :2]) / STRAIGHT_S, -1.0)
     items = (at(Command.NAV_WAYPOINT, ends[0]), ground_speed, at(Command.NAV_LOITER_UNLIM, ends[1]))
     terms = FitnessTerms(length_m / 1000.0, 0.7, 0.0, 0.0, 0.9)
-    history = (None, 1.2 * terms.fitness, terms.fitness)
+    history = ((150, None), (300, 1.2 * terms.fitness), (450, terms.fitness))
     return UavPlan(vehicle.sysid, vehicle.name, ends, terms, length_m, length_m, 450, history, Mission(items))
 
 

@@ -162,6 +162,16 @@ def test_two_uavs_swapped_in_time_are_caught(spacing: float, late: int) -> None:
     assert any("m from lead after" in fault for fault in faults(replace(sound, uavs=tuple(swapped)), 1, scenario))
 
 
+def test_a_loiter_at_the_altitude_of_its_neighbours_is_caught() -> None:
+    altitude = SOUND.uavs[0].mission.items[-1].alt_m
+
+    def lower(items: list[MissionItem]) -> None:
+        items[-1] = replace(items[-1], alt_m=altitude)
+
+    found = faults(damaged(SOUND, 1, lower), 1)
+    assert found == ["left1: loiters as high as lead beside it, less than 40 m apart"]
+
+
 @settings(max_examples=5, deadline=None)
 @given(pair=st.tuples(uavs, uavs).filter(lambda pair: pair[0] != pair[1]))
 def test_two_uavs_with_each_others_missions_are_caught(pair: tuple[int, int]) -> None:

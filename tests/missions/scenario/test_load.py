@@ -19,9 +19,9 @@ def error_of(text: str) -> str:
     return message
 
 
-def test_three_scenarios_ship_with_nine_vehicles_each() -> None:
-    assert shipped_scenarios() == ["mountains", "radars", "vee"]
-    assert [len(load_scenario(name).vehicles) for name in shipped_scenarios()] == [9, 9, 9]
+def test_four_scenarios_ship_with_nine_vehicles_each() -> None:
+    assert shipped_scenarios() == ["mountains", "radars", "ridge", "vee"]
+    assert [len(load_scenario(name).vehicles) for name in shipped_scenarios()] == [9, 9, 9, 9]
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_files_that_are_no_scenarios(tmp_path: Path, content: bytes) -> None:
 
 
 def test_a_missing_file_names_what_ships() -> None:
-    with pytest.raises(InputError, match="mountains, radars, vee"):
+    with pytest.raises(InputError, match="mountains, radars, ridge, vee"):
         load_scenario("nowhere.toml")
 
 

@@ -272,3 +272,21 @@ def test_one_thread_and_all_give_the_same_bits() -> None:
         numba.set_num_threads(threads)
     assert np.array_equal(together[0], alone[0])
     assert np.array_equal(together[1], alone[1])
+
+
+def test_peaks_and_a_fine_raster_of_them_cost_the_same() -> None:
+    peaked = problem(peaks=[(700.0, 9000.0, 300.0, 2000.0, 1500.0), (-80.0, 4000.0, 0.0, 900.0, 900.0)])
+    x, y = np.arange(-1000.0, 22000.0, 20.0), np.arange(-3000.0, 3001.0, 20.0)
+    posts = ground_heights_m(*np.meshgrid(x, y), peaked.terrain)
+    raster = peaked._replace(terrain=Terrain(0.0, NO_WAVE, [], posts, x[0], y[0], 20.0, 20.0).as_array())
+    paths = np.linspace(peaked.origin_m, peaked.target_m, 6)[1:-1].ravel()
+    paths = paths + np.random.default_rng(5).normal(size=(300, 12)) * np.tile([300.0, 300.0, 150.0], 4)
+    paths[:, 2::3] += 200.0
+    for reading in ("graded", "published"):
+        _, with_peaks = evaluate(paths, peaked, reading)
+        _, with_raster = evaluate(paths, raster, reading)
+        under = with_peaks[:, 1] >= BOUNDS.terrain_penalty_km
+        assert 20 < under.sum() < 280
+        assert np.array_equal(with_raster[:, [0, 2, 3, 4]], with_peaks[:, [0, 2, 3, 4]])
+        # Nearly all: a path that just touches the ground on one may clear it on the other.
+        assert np.mean(np.isclose(with_raster[:, 1], with_peaks[:, 1], rtol=0.03)) > 0.97
