@@ -38,7 +38,7 @@ def demo(
         arm = chosen_arm(no_corrections, no_neighbours)
         run, loaded, plan = plan_run(scenario, out, seed)
         if not json:
-            output.out.print(plan_table(plan))
+            output.out.print(plan_table(plan, loaded))
         options = FlightOptions(
             delay_s=loaded.formation.delay_s if delay is None else delay,
             arm=arm,

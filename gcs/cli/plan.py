@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from planner.formation_plan import FormationPlan
 
 MethodOption = Annotated[
-    str | None, typer.Option("--method", metavar="M", help="Search: pso, qpso, hybrid or published.")
+    str | None, typer.Option("--method", metavar="M", help="Search: skein, pso, qpso, hybrid or published.")
 ]
 
 
@@ -31,13 +31,14 @@ def plan(
     """
     with exit_codes():
         from gcs.cli import output
+        from gcs.cli.plan_json import plan_json
         from gcs.cli.tables import plan_table
 
-        run, _, result = plan_run(scenario, out, seed, method)
+        run, loaded, result = plan_run(scenario, out, seed, method)
         if json:
-            output.print_json({"run": str(run.path), **result.as_json()})
+            output.print_json({"run": str(run.path), **plan_json(result, loaded)})
             return
-        output.out.print(plan_table(result))
+        output.out.print(plan_table(result, loaded))
         output.out.print(f"Run:    {run.path}", soft_wrap=True)
         output.out.print(f"Fly it: skein fly {run.path}", soft_wrap=True)
 

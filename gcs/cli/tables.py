@@ -6,24 +6,28 @@ from rich.table import Table
 
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
+from planner.standing import standings
 from sitl.swarm import Swarm
 
 
-def plan_table(plan: FormationPlan) -> Table:
-    """What each UAV's path costs and how long it is."""
+def plan_table(plan: FormationPlan, scenario: Scenario) -> Table:
+    """What each UAV's path costs, how far it is from the best known (of that UAV alone), and how long it is."""
     table = _table(
-        f"Plan of {plan.scenario}, {plan.method}, seed {plan.seed}, in {plan.plan_s:.1f} s",
-        ["UAV", "f km", "f / line", "length", "terrain", "radar", "altitude"],
+        f"Plan of {plan.scenario}, {plan.method}, seed {plan.seed}, in {plan.plan_s:.2f} s, verified",
+        ["UAV", "f km", "f / line", "gap", "length", "terrain", "radar", "altitude"],
     )
-    for uav in plan.uavs:
+    alone, together = standings(plan, scenario)
+    for uav, standing in zip(plan.uavs, alone, strict=True):
         terms = uav.terms
-        line_km = uav.straight_line_m / 1000.0
         table.add_row(
             f"{uav.sysid} {uav.name}",
-            f"{terms.fitness:.2f}",
-            f"{terms.fitness / line_km:.3f}",
+            f"{terms.fitness:.3f}",
+            f"{terms.fitness * 1000.0 / uav.straight_line_m:.3f}",
+            _shown(standing.gap, ".2%"),
             *(f"{term:.2f}" for term in (terms.length, terms.terrain, terms.radar, terms.altitude)),
         )
+    table.add_section()
+    table.add_row("all", f"{together.fitness_km:.3f}", "", _shown(together.gap, ".2%"))
     return table
 
 

@@ -5,8 +5,11 @@ own search, `skein`, sees the problem itself.
 """
 
 import difflib
+import math
 from collections.abc import Callable
 from functools import partial
+
+import numpy as np
 
 from missions.errors import InputError
 from planner.bench.problems import BenchProblem
@@ -26,13 +29,22 @@ BLACK = "-blackbox"
 
 
 def _skein(problem: BenchProblem, budget: int, seed: int, tracer: Tracer) -> None:
-    result = skein_path(problem.problem, problem.waypoints, budget=budget, seed=seed, report=tracer.report, threads=1)
+    result = skein_path(
+        problem.problem,
+        problem.waypoints,
+        budget=budget,
+        seed=seed,
+        report=tracer.report,
+        threads=1,
+        patience=math.inf,
+    )
     tracer.found(result.x, result.fun)
 
 
 def _black_box(name: str, problem: BenchProblem, budget: int, seed: int, tracer: Tracer) -> None:
     view = wave_view(problem.problem, problem.waypoints)
-    minimize(tracer.counted(view), view.bounds, method=name, budget=budget, seed=seed)
+    straight = np.zeros(len(view.bounds))
+    minimize(tracer.counted(view), view.bounds, method=name, budget=budget, seed=seed, x0=straight)
 
 
 METHODS: dict[str, Method] = {

@@ -55,7 +55,7 @@ def routed_paths(
     *,
     chance: bool = False,
 ) -> FloatArray:
-    """(count x spacings, n + 1, 3) corners of paths along routes, the cheapest first and evenly spaced first, unless all
+    """(count x spacings, n + 1, 3) corners of paths along routes: the cheapest first, evenly spaced first, unless all
     is left to chance."""
     routes = [grid.route(rng=rng if i or chance else None) for i in range(count)]
     return np.array(
