@@ -1,5 +1,6 @@
 """`skein bench`: compare searches fairly."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -73,6 +74,8 @@ def bench(
 
     Example: skein bench --quick --methods pso,skein --out /tmp/bench
     """
+    # A worker that is ended, as by Ctrl-C, leaves numba's lock to Python's tracker of such things, which tells of it.
+    os.environ.setdefault("PYTHONWARNINGS", "ignore:resource_tracker")
     with exit_codes():
         if kernel:
             measure_kernel(json)
@@ -192,8 +195,6 @@ def chosen_limits(budget: str, time_s: float) -> "tuple[Limit, ...]":
 
 def chosen_workers(jobs: int | None, cluster: str | None) -> "Workers":
     """This machine's processes, or a cluster's. Raises InputError."""
-    import os
-
     from missions.errors import InputError
     from planner.bench.cluster import connect
     from planner.bench.processes import Processes

@@ -110,7 +110,7 @@ def together_table(figures: Sequence[Mapping[str, Any]]) -> Table:
 
 
 def _table(title: str, first: str = "method") -> Table:
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False, min_width=60)
     table.add_column(first, no_wrap=True)
     return table
 

@@ -87,6 +87,8 @@ class BestKnown:
         known_km = self.value_km(problem.digest)
         if value_km >= INFEASIBLE_KM or (known_km is not None and value_km >= known_km):
             return False
+        # What was known of an earlier content of that problem is of no more use.
+        self.paths = {digest: path for digest, path in self.paths.items() if path.problem != problem.name}
         self.paths[problem.digest] = BestPath(
             problem=problem.name,
             digest=problem.digest,

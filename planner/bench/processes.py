@@ -35,9 +35,9 @@ class Processes:
             try:
                 yield executor
             except BaseException:
-                executor.shutdown(wait=False, cancel_futures=True)
                 for process in set(multiprocessing.active_children()) - before:
                     process.terminate()
+                executor.shutdown(wait=False, cancel_futures=True)
                 raise
             executor.shutdown()
 

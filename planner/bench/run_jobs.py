@@ -46,12 +46,11 @@ def run_jobs(
     """
     waiting, suspects = deque(jobs), deque[Job]()
     while suspects or waiting:
-        queue, at_once = (suspects, 1) if suspects else (waiting, workers.at_once)
-        broken = _until_broken(queue, workers, at_once, done, run)
-        if len(broken) == 1:
-            done(Failure(broken[0], "its process died"))
+        if not suspects:
+            suspects.extend(_until_broken(waiting, workers, workers.at_once, done, run))
         else:
-            suspects.extend(broken)
+            for job in _until_broken(suspects, workers, 1, done, run):
+                done(Failure(job, "its process died"))
 
 
 def _until_broken(
@@ -67,12 +66,11 @@ def _until_broken(
     with workers.opened(at_once) as executor:
         while (queue or under_way) and not broken:
             while queue and len(under_way) < at_once:
-                job = queue.popleft()
                 try:
-                    under_way[executor.submit(run, job)] = job
-                except BrokenExecutor:
-                    broken.append(job)
-                    break
+                    under_way[executor.submit(run, queue[0])] = queue[0]
+                except BrokenExecutor:  # a process died that had nothing to do, or whose job is still to be heard of
+                    return list(under_way.values())
+                queue.popleft()
             finished, _ = wait(under_way, return_when=FIRST_COMPLETED)
             for future in finished:
                 job = under_way.pop(future)

@@ -107,6 +107,7 @@ def offer_plan(known: BestKnown, scenario: Scenario, made: FormationPlan) -> boo
     best = known.value_km(digest)
     if value >= INFEASIBLE_KM or (best is not None and value >= best):
         return False
+    known.plans = {other: entry for other, entry in known.plans.items() if entry.scenario != scenario.name}
     known.plans[digest] = BestPlan(
         scenario=scenario.name,
         digest=digest,
