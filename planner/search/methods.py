@@ -9,8 +9,10 @@ from planner.search.peers.pyswarms import pyswarms
 from planner.search.pso import pso
 from planner.search.published import published
 from planner.search.qpso import qpso
+from planner.search.skein import skein
 
 METHODS: dict[str, Search] = {
+    "skein": skein,
     "pso": pso,
     "qpso": qpso,
     "hybrid": hybrid,
