@@ -111,7 +111,7 @@ def _search(scenario: Scenario, vehicle: VehicleModel, entrant: Entrant, seed: i
         method=entrant.method,
         budget=entrant.evaluations,
         seed=rng,
-        x0=rng.uniform(*view.bounds.T, (settings.population, len(view.bounds))),
+        x0=rng.uniform(view.bounds[:, 0], view.bounds[:, 1], (settings.population, len(view.bounds))),
     )
     return tuple((int(evaluations), float(cost)) for evaluations, cost in result.history)
 
