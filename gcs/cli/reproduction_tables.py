@@ -13,17 +13,17 @@ def distance_table(result: dict[str, Any]) -> Table:
     name = result["scenario"]
     table = _table(
         f"Table {NUMBERS[name]}: {name}, kilometres; plans of seed {result['seeds'][0]}",
-        ["UAV", "origin", "target", "line", "planned", "flown", "skein", "f", "f skein"],
+        ["UAV", "origin", "target", "line", "planned", "flown", "f", "f skein"],
     )
     for row in result["table"]:
         flown = row["flown_km"]
         table.add_row(
-            f"{row['name']}",
+            row["name"],
             _point(row["origin_km"]),
             _point(row["target_km"]),
             *(f"{row[key]:.2f}" for key in ("straight_km", "planned_km")),
             "-" if flown is None else f"{flown:.2f}",
-            *(f"{row[key]:.2f}" for key in ("skein_planned_km", "hybrid_f_km", "skein_f_km")),
+            *(f"{row[key]:.2f}" for key in ("hybrid_f_km", "skein_f_km")),
         )
     return table
 
@@ -33,7 +33,7 @@ def method_table(result: dict[str, Any]) -> Table:
     seeds = len(result["seeds"])
     table = _table(
         f"{result['scenario']}: sum of f over all UAVs, km, {seeds} seeds",
-        ["method", "iterations", "evaluations", "quartile 1", "median", "3", "hybrid better"],
+        ["method", "iter.", "eval.", "lower\nquartile", "\nmedian", "upper\nquartile", "hybrid is\nbetter in"],
     )
     for method in result["methods"]:
         iterations = method["iterations"]
@@ -49,7 +49,7 @@ def method_table(result: dict[str, Any]) -> Table:
 
 
 def _point(values: list[float]) -> str:
-    return ",".join(f"{value:g}" for value in values)
+    return ",".join(f"{round(value, 3):g}" for value in values)
 
 
 def _table(title: str, headings: list[str]) -> Table:

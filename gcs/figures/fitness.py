@@ -3,16 +3,21 @@
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 
 from gcs.figures import style
 from missions.scenario import Scenario
 from planner.reproduction import Outcome
 
+FloatArray = npt.NDArray[np.float64]
+
 REPORTED_KM = (20.0, 30.0)
 """What the paper reports for its hybrid."""
-ZOOM_FRAME = (0.34, 0.44, 0.64, 0.54)
-"""Of the zoom, in shares of the axes: where no curve goes."""
+ZOOM_FRAME = (0.34, 0.46, 0.64, 0.52)
+"""Of the zoom, in shares of the axes."""
+BELOW_ZOOM = 0.38
+"""Part of the axes' height that is left free of it and of its labels."""
 ZOOM_FROM = 0.1
 """Of the iterations."""
 NEAR = 0.06
@@ -49,7 +54,8 @@ def draw_fitness(scenario: Scenario, outcome: Outcome, particles: int, seed: int
         axes.set_ylabel("fitness f (km)")
         axes.set_xlim(0, iterations)
         axes.set_ylim(bottom=REPORTED_KM[0])
-        _frame_zoom(axes, zoom, costs_km, iterations)
+        axes.yaxis.set_major_formatter("{x:g}")
+        _place_zoom(axes, zoom, costs_km)
         style.headline(figure, headline)
         style.legend_beside(
             figure,
@@ -62,29 +68,32 @@ def draw_fitness(scenario: Scenario, outcome: Outcome, particles: int, seed: int
         )  # fmt: skip
 
 
-def _curves(axes: Axes, scenario: Scenario, steps: np.ndarray, costs_km: np.ndarray) -> None:
+def _curves(axes: Axes, scenario: Scenario, steps: npt.NDArray[np.int64], costs_km: FloatArray) -> None:
     colours = style.vehicle_colours(scenario)
     for vehicle, costs in zip(scenario.vehicles, costs_km, strict=True):
         known = np.isfinite(costs)
         axes.step(steps[known], costs[known], where="post", color=colours[vehicle.sysid])
 
 
-def _frame_zoom(axes: Axes, zoom: Axes, costs_km: np.ndarray, iterations: int) -> None:
-    """The zoom shows how the lowest curves end; there are none when no UAV has a feasible path."""
-    last = costs_km[:, -1]
-    lowest = float(last.min())
+def _place_zoom(axes: Axes, zoom: Axes, costs_km: FloatArray) -> None:
+    """Show how the lowest curves end; there are none when no UAV has a feasible path."""
+    lowest = float(costs_km[:, -1].min())
     if not np.isfinite(lowest):
         zoom.remove()
         return
-    shown = costs_km[last <= lowest * (1.0 + NEAR)]
+    iterations = costs_km.shape[1]
     begin = int(ZOOM_FROM * iterations)
-    high = float(
-        shown[np.isfinite(shown)].max()
-        if begin == 0
-        else np.nanmax(np.where(np.isfinite(shown), shown, np.nan)[:, begin:])
-    )
-    room = max(0.05 * (high - lowest), 0.01)
+    shown = costs_km[costs_km[:, -1] <= lowest * (1.0 + NEAR), begin:]
+    high = float(shown[np.isfinite(shown)].max())
+    room = 0.05 * (high - lowest) + 0.01
     zoom.set_xlim(begin, iterations)
     zoom.set_ylim(lowest - room, high + room)
     zoom.tick_params(labelsize=9)
+    for spine in zoom.spines.values():
+        spine.set_visible(True)
+    # All that goes on under the zoom stays below it.
+    below = costs_km[:, int(ZOOM_FRAME[0] * iterations) :]
+    highest = float(below[np.isfinite(below)].max())
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(bottom, max(top, bottom + (highest - bottom) / BELOW_ZOOM))
     axes.indicate_inset_zoom(zoom, edgecolor=style.FAINT)

@@ -4,11 +4,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 
 from gcs.figures import style
 from planner.reproduction import Outcome, Study
 from planner.reproduction.entrants import Equal
+
+FloatArray = npt.NDArray[np.float64]
 
 LOOKS: Mapping[str, str] = {
     "hybrid": style.VEHICLES[0],
@@ -56,7 +59,7 @@ def _curves(axes: Axes, study: Study, equal: Equal) -> float:
     return lowest
 
 
-def _quartiles(outcome: Outcome, evaluations: np.ndarray) -> Sequence[np.ndarray]:
+def _quartiles(outcome: Outcome, evaluations: FloatArray) -> Sequence[FloatArray]:
     """Of the totals over the seeds; NaN where a quarter, half or three quarters of them are infinite."""
     totals = outcome.best_after_km(evaluations).sum(axis=1)
     places = np.quantile(totals, (0.25, 0.5, 0.75), axis=0, method="inverted_cdf")

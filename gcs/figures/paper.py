@@ -11,7 +11,7 @@ from gcs.reproduction import Reproduced
 
 SCENES: Mapping[str, tuple[int, tuple[View, ...]]] = {
     "mountains": (4, (USUAL,)),
-    "radars": (9, (USUAL, View(above=55, about=-60))),
+    "radars": (9, (USUAL, View(above=32, about=-62))),
 }
 PROJECTIONS: Mapping[str, Mapping[int, Plane]] = {
     "mountains": {5: "xy", 6: "xz", 7: "yz"},
@@ -25,7 +25,7 @@ def draw_paper(reproduced: Reproduced, folder: Path) -> list[Path]:
     """Draw a scenario's figures into an existing folder; returns the files. Raises OSError."""
     scenario, plan, study = reproduced.scenario, reproduced.hybrid, reproduced.study
     truths = None if reproduced.flown is None else reproduced.flown.truths
-    done = "planned" if truths is None else "planned and flown"
+    done = "the hybrid's plan" if truths is None else "the hybrid, planned and flown"
     files = []
 
     def file(number: int) -> Path:
@@ -33,12 +33,10 @@ def draw_paper(reproduced: Reproduced, folder: Path) -> list[Path]:
         return files[-1]
 
     number, views = SCENES[scenario.name]
-    title = (
-        f"Figure {number}: {scenario.name}, the hybrid's {'plan' if truths is None else 'flight'}, heights exaggerated"
-    )
+    title = f"Figure {number}: {scenario.name}, the hybrid's {'plan' if truths is None else 'flight'}"
     draw_scene(plan, scenario, truths, file(number), views=views, headline=title)
     for number, plane in PROJECTIONS[scenario.name].items():
-        title = f"Figure {number}: {scenario.name} in the {plane} plane, the hybrid's {done}"
+        title = f"Figure {number}: {scenario.name} in the {plane} plane, {done}"
         draw_projection(plan, scenario, truths, plane, title, file(number))
     number, hybrid = FITNESS[scenario.name], study.outcomes[0]
     title = f"Figure {number}: {scenario.name}, fitness of all UAVs, {hybrid.entrant.method}, seed {study.seeds[0]}"

@@ -23,6 +23,8 @@ FloatArray = npt.NDArray[np.float64]
 FRAME = (0.015, -0.11, 0.9, 1.17)
 """Of a view's axes, in shares of the page, or of its part of it: mplot3d leaves wide margins inside."""
 VIEW_HEIGHT_IN = 6.0
+PITCH_IN = 5.0
+"""From one view to the next: their empty margins overlap."""
 HEIGHT_SHARE = 0.3
 """How high the scene is drawn, about, as a share of its longer side."""
 EXAGGERATIONS = (1, 2, 3, 5, 10, 15, 20, 30, 50)
@@ -63,11 +65,14 @@ def draw_scene(
         *(obstacle.top_m for obstacle in environment.obstacles),
         environment.area.z_min_m + 1.0,
     )
-    with style.page(path, VIEW_HEIGHT_IN * len(views), layout=None) as figure:
+    height_in = VIEW_HEIGHT_IN + PITCH_IN * (len(views) - 1)
+    with style.page(path, height_in, layout=None) as figure:
         left, bottom, width, height = FRAME
         for row, view in enumerate(reversed(views)):
-            frame = (left, (row + bottom) / len(views), width, height / len(views))
+            share = VIEW_HEIGHT_IN / height_in
+            frame = (left, row * PITCH_IN / height_in + bottom * share, width, height * share)
             axes: Any = figure.add_axes(frame, projection="3d", computed_zorder=False)
+            axes.patch.set_visible(False)
             factor = _shape(axes, ground, float(ground.z_m.min()), top_m, view)
             _ground(axes, ground, factor)
             _radars(axes, environment, ground)
@@ -75,7 +80,7 @@ def draw_scene(
             _paths(axes, paths, {sysid: one.target_m for sysid, one in references.items()}, scenario, ground)
         what = "planned" if truths is None else "flown"
         times = "to scale" if factor == 1 else f"exaggerated {factor}x"
-        style.headline(figure, headline or f"{scenario.name}: {len(paths)} {what} paths, heights {times}")
+        style.headline(figure, f"{headline or f'{scenario.name}: {len(paths)} {what} paths'}, heights {times}")
         style.legend_beside(figure, style.vehicle_handles(scenario) + style.surroundings_handles(environment))
 
 
