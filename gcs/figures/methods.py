@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from gcs.figures import style
 from planner.reproduction import Outcome, Study
@@ -22,7 +23,7 @@ LOOKS: Mapping[str, str] = {
 }
 POINTS = 300
 """Of one curve."""
-HEADROOM = 0.25
+HEADROOM = 0.2
 """How far above the lowest the curves are shown, as a part of it."""
 
 
@@ -36,6 +37,7 @@ def draw_methods(study: Study, headline: str, path: Path) -> None:
         left.set_ylabel(f"sum of f of {len(study.scenario.vehicles)} UAVs (km)")
         right.set_title("At equal evaluations")
         right.set_xlabel("evaluations for each UAV")
+        right.xaxis.set_major_locator(MaxNLocator(4))
         if np.isfinite(min(lowest)):
             left.set_ylim(0.99 * min(lowest), (1.0 + HEADROOM) * min(lowest))
         style.headline(figure, headline)

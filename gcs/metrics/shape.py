@@ -16,11 +16,13 @@ class Shape:
     Attributes:
         lead_from_s: time from which the leader stays ahead; None when it is not ahead at the end.
         gap_min_m, gap_max_m: distance of followers that start beside each other; None for fewer than two.
+        gap_change: largest deviation of such a distance from what it was at the start, as a part of it.
     """
 
     lead_from_s: float | None
     gap_min_m: float | None
     gap_max_m: float | None
+    gap_change: float | None
 
 
 def shape(positions_m: FloatArray, t_s: FloatArray, forward: tuple[float, float]) -> Shape:
@@ -41,5 +43,6 @@ def shape(positions_m: FloatArray, t_s: FloatArray, forward: tuple[float, float]
     beside = positions[1:][np.argsort(sideways)]
     gaps = [np.linalg.norm(one - other, axis=1) for one, other in itertools.pairwise(beside)]
     if not gaps:
-        return Shape(lead_from_s, None, None)
-    return Shape(lead_from_s, float(np.min(gaps)), float(np.max(gaps)))
+        return Shape(lead_from_s, None, None, None)
+    change = max(float(np.abs(gap / gap[0] - 1.0).max()) for gap in gaps)
+    return Shape(lead_from_s, float(np.min(gaps)), float(np.max(gaps)), change)

@@ -42,3 +42,13 @@ def test_neighbours_are_those_that_start_beside_each_other_in_whatever_order(ord
     followers = [line(20.0, 2000.0 * place) for place in order]
     found = shape(np.array([line(30.0, 0.0), *followers]), T_S, EAST)
     assert found.gap_min_m == found.gap_max_m == 2000.0
+    assert found.gap_change == 0.0
+
+
+def test_a_gap_is_measured_against_what_it_was_at_the_start() -> None:
+    far = [line(30.0, 0.0, 9.0), line(20.0, 400.0), line(20.0, 0.0)]
+    near = line(20.0, 100.0)
+    near[4, 1] = 50.0
+    found = shape(np.array([*far, near]), T_S, EAST)
+    assert found.gap_change == 0.5
+    assert (found.gap_min_m, found.gap_max_m) == (50.0, 350.0)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from gcs.figures.fitness import draw_fitness
+from gcs.figures.methods import draw_methods
 from gcs.figures.paper import draw_paper
 from gcs.flight_record import FlightRecord
 from gcs.metrics import measure
@@ -84,8 +86,10 @@ def test_each_of_the_papers_figures_is_drawn_and_shows_something(
 
 def test_searches_that_found_nothing_can_be_told_and_drawn(make: Make, tmp_path: Path) -> None:
     nothing = make("radars", flown=False, found=False)
-    draw_paper(nothing, tmp_path)
-    assert imread(tmp_path / "figure-12.png")[..., :3].std() > 0.03
+    draw_fitness(nothing.scenario, nothing.study.outcomes[0], 150, 0, "none", tmp_path / "fitness.png")
+    draw_methods(nothing.study, "none", tmp_path / "methods.png")
+    for name in ("fitness", "methods"):
+        assert imread(tmp_path / f"{name}.png")[..., :3].std() > 0.03
     hybrid = summary(nothing)["methods"][0]
     assert hybrid["total_km"] == [None, None, None]
     assert hybrid["searches_without_path"] == 6
