@@ -7,6 +7,7 @@ from gcs.cli.demo import demo
 from gcs.cli.export import export
 from gcs.cli.fly import fly
 from gcs.cli.plan import plan
+from gcs.cli.reproduce import reproduce
 from gcs.cli.sim import sim
 
 app = typer.Typer(
@@ -17,5 +18,5 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (demo, plan, sim, fly, export, bench):
+for command in (demo, plan, sim, fly, export, bench, reproduce):
     app.command()(command)

@@ -1,9 +1,12 @@
 """The 3D scene: all paths over the ground, among radars and obstacles."""
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.colors import LightSource, LinearSegmentedColormap
 from matplotlib.ticker import MaxNLocator
 
@@ -15,8 +18,13 @@ from missions.environment import Environment
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 
+FloatArray = npt.NDArray[np.float64]
+
 FRAME = (0.015, -0.11, 0.9, 1.17)
-"""Of the axes, in shares of the page: mplot3d leaves wide margins inside."""
+"""Of a view's axes, in shares of the page, or of its part of it: mplot3d leaves wide margins inside."""
+VIEW_HEIGHT_IN = 6.0
+PITCH_IN = 5.0
+"""From one view to the next: their empty margins overlap."""
 HEIGHT_SHARE = 0.3
 """How high the scene is drawn, about, as a share of its longer side."""
 EXAGGERATIONS = (1, 2, 3, 5, 10, 15, 20, 30, 50)
@@ -24,8 +32,27 @@ TURNS = np.linspace(0.0, 2.0 * np.pi, 37)
 """Around a sphere or a cylinder."""
 
 
-def draw_scene(plan: FormationPlan, scenario: Scenario, truths: Truths | None, path: Path) -> None:
-    """Draw what was flown, or without truths what is planned."""
+@dataclass(frozen=True)
+class View:
+    """From where a scene is seen, degrees: above the horizon, and round about, from +x anticlockwise."""
+
+    above: float
+    about: float
+
+
+USUAL = View(above=32, about=-118)
+
+
+def draw_scene(
+    plan: FormationPlan,
+    scenario: Scenario,
+    truths: Truths | None,
+    path: Path,
+    *,
+    views: Sequence[View] = (USUAL,),
+    headline: str | None = None,
+) -> None:
+    """Draw what was flown, or without truths what is planned; once a view, one below the other."""
     references = plan.references(scenario)
     planned = planned_paths(references)
     paths = planned if truths is None else flown_paths(truths, references)
@@ -38,29 +65,46 @@ def draw_scene(plan: FormationPlan, scenario: Scenario, truths: Truths | None, p
         *(obstacle.top_m for obstacle in environment.obstacles),
         environment.area.z_min_m + 1.0,
     )
-    with style.page(path, 6.0, layout=None) as figure:
-        axes: Any = figure.add_axes(FRAME, projection="3d", computed_zorder=False)
-        factor = _shape(axes, ground, float(ground.z_m.min()), top_m)
-        _ground(axes, ground, factor)
-        _radars(axes, environment, ground)
-        _obstacles(axes, environment, ground)
-        colours = style.vehicle_colours(scenario)
-        for sysid, points in paths.items():
-            x, y, z = points[:, 0] * KM, points[:, 1] * KM, points[:, 2]
-            floor = np.full_like(z, ground.z_m.min())
-            axes.plot(x, y, floor, color=colours[sysid], linewidth=0.8, alpha=0.25, zorder=2)
-            axes.plot(x, y, z, color=colours[sysid], linewidth=1.8, zorder=5)
-            axes.scatter(x[0], y[0], z[0], color=colours[sysid], s=12, marker="o", depthshade=False, zorder=6)
-            target_x, target_y, target_z = references[sysid].target_m
-            target = (target_x * KM, target_y * KM, target_z)
-            axes.scatter(*target, color=colours[sysid], s=38, marker="*", depthshade=False, zorder=6)
+    height_in = VIEW_HEIGHT_IN + PITCH_IN * (len(views) - 1)
+    with style.page(path, height_in, layout=None) as figure:
+        left, bottom, width, height = FRAME
+        for row, view in enumerate(reversed(views)):
+            share = VIEW_HEIGHT_IN / height_in
+            frame = (left, row * PITCH_IN / height_in + bottom * share, width, height * share)
+            axes: Any = figure.add_axes(frame, projection="3d", computed_zorder=False)
+            axes.patch.set_visible(False)
+            factor = _shape(axes, ground, float(ground.z_m.min()), top_m, view)
+            _ground(axes, ground, factor)
+            _radars(axes, environment, ground)
+            _obstacles(axes, environment, ground)
+            _paths(axes, paths, {sysid: one.target_m for sysid, one in references.items()}, scenario, ground)
         what = "planned" if truths is None else "flown"
         times = "to scale" if factor == 1 else f"exaggerated {factor}x"
-        style.headline(figure, f"{scenario.name}: {len(paths)} {what} paths, heights {times}")
+        style.headline(figure, f"{headline or f'{scenario.name}: {len(paths)} {what} paths'}, heights {times}")
         style.legend_beside(figure, style.vehicle_handles(scenario) + style.surroundings_handles(environment))
 
 
-def _shape(axes: Any, ground: Ground, bottom_m: float, top_m: float) -> int:
+def _paths(
+    axes: Any,
+    paths: Mapping[int, FloatArray],
+    targets_m: Mapping[int, tuple[float, float, float]],
+    scenario: Scenario,
+    ground: Ground,
+) -> None:
+    """Each with its shadow on the lowest ground, a dot where it begins and a star at its target."""
+    colours = style.vehicle_colours(scenario)
+    for sysid, points in paths.items():
+        x, y, z = points[:, 0] * KM, points[:, 1] * KM, points[:, 2]
+        floor = np.full_like(z, ground.z_m.min())
+        axes.plot(x, y, floor, color=colours[sysid], linewidth=0.8, alpha=0.25, zorder=2)
+        axes.plot(x, y, z, color=colours[sysid], linewidth=1.8, zorder=5)
+        axes.scatter(x[0], y[0], z[0], color=colours[sysid], s=12, marker="o", depthshade=False, zorder=6)
+        target_x, target_y, target_z = targets_m[sysid]
+        target = (target_x * KM, target_y * KM, target_z)
+        axes.scatter(*target, color=colours[sysid], s=38, marker="*", depthshade=False, zorder=6)
+
+
+def _shape(axes: Any, ground: Ground, bottom_m: float, top_m: float, view: View) -> int:
     """Set limits, labels and proportions; returns the factor by which heights are exaggerated."""
     x0, x1, y0, y1 = ground.extent_m
     longer, height = max(x1 - x0, y1 - y0), max(top_m - bottom_m, 1.0)
@@ -69,7 +113,7 @@ def _shape(axes: Any, ground: Ground, bottom_m: float, top_m: float) -> int:
     axes.set_ylim(y0 * KM, y1 * KM)
     axes.set_zlim(bottom_m, top_m)
     axes.set_box_aspect((x1 - x0, y1 - y0, factor * height), zoom=1.04)
-    axes.view_init(elev=32, azim=-118)
+    axes.view_init(elev=view.above, azim=view.about)
     axes.set_xlabel("east x (km)", labelpad=8)
     axes.set_ylabel("north y (km)", labelpad=8)
     axes.set_zlabel("altitude z (m)", labelpad=10)

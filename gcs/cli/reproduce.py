@@ -1,0 +1,91 @@
+"""`skein reproduce`: the paper's figures 4 to 12 and its tables 3 and 6."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gcs.cli.errors import exit_codes
+from gcs.cli.options import JsonOption, SeedOption
+
+if TYPE_CHECKING:
+    from gcs.reproduction import Reproduced
+    from missions.scenario import Scenario
+
+SCENARIOS = ("mountains", "radars")
+"""Those of the paper, 1 and 2."""
+
+OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="New folder for figures and numbers.")]
+SeedsOption = Annotated[
+    int, typer.Option("--seeds", min=1, metavar="N", help="Searches of each kind that are compared.")
+]
+IterationsOption = Annotated[
+    int | None, typer.Option("--iterations", min=1, metavar="N", help="Of the hybrid, for a quick look.")
+]
+CountOption = Annotated[
+    int | None, typer.Option("--count", metavar="N", min=1, help="Only the first N vehicles, for a quick look.")
+]
+NoFlightsOption = Annotated[bool, typer.Option("--no-flights", help="Show the plans; fly nothing.")]
+
+
+def reproduce(
+    out: OutOption = Path("reproduction"),
+    seed: SeedOption = None,
+    seeds: SeedsOption = 5,
+    iterations: IterationsOption = None,
+    count: CountOption = None,
+    no_flights: NoFlightsOption = False,
+    json: JsonOption = False,
+) -> None:
+    """Plan, fly and compare the paper's two scenarios as the paper does; figures 4 to 12, tables 3 and 6.
+
+    docs/reproduction.md says what agrees with the paper, what cannot, and why.
+
+    Example: skein reproduce --seeds 2 --out quick
+    """
+    with exit_codes():
+        from gcs.cli import output
+        from gcs.cli.reproduction_tables import distance_table, method_table
+        from gcs.figures.paper import draw_paper
+        from gcs.reproduction import summary
+        from gcs.run_folder import make_run_folder
+        from missions.scenario import load_scenario
+
+        folder = make_run_folder(out, "reproduction")
+        results: list[dict[str, Any]] = []
+        for name in SCENARIOS:
+            scenario = _cut_down(load_scenario(name), iterations, count)
+            first = scenario.seed if seed is None else seed
+            reproduced = _reproduced(scenario, range(first, first + seeds), flights=not no_flights)
+            files = draw_paper(reproduced, folder.path)
+            results.append(summary(reproduced) | {"figures": [file.name for file in files]})
+            if not json:
+                output.out.print(distance_table(results[-1]))
+                output.out.print(method_table(results[-1]))
+        folder.write_json("reproduction.json", results)
+        if json:
+            output.print_json(results)
+        else:
+            output.out.print(f"Figures and numbers: {folder.path}", soft_wrap=True)
+
+
+def _cut_down(scenario: "Scenario", iterations: int | None, count: int | None) -> "Scenario":
+    search = scenario.search if iterations is None else scenario.search.model_copy(update={"iterations": iterations})
+    return scenario.model_copy(update={"search": search, "vehicles": scenario.vehicles[:count]})
+
+
+def _reproduced(scenario: "Scenario", seeds: range, *, flights: bool) -> "Reproduced":
+    """Plan, fly and compare, with progress on standard error."""
+    from rich.progress import Progress
+
+    from gcs.cli import output
+    from gcs.cli.planning import search_with_progress
+    from gcs.reproduction import Reproduced, fly_for_the_record
+    from planner.reproduction import study
+
+    hybrid, skein = (search_with_progress(scenario, seeds[0], method) for method in ("hybrid", "skein"))
+    flown = fly_for_the_record(scenario, hybrid, output.progress.print) if flights else None
+    with Progress(console=output.progress, transient=True) as bar:
+        task = bar.add_task(f"Comparing methods on {scenario.name}", total=1.0)
+        compared = study(scenario, seeds, lambda part: bar.update(task, completed=part))
+    return Reproduced(scenario, hybrid, skein, flown, compared)
