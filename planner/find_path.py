@@ -164,13 +164,13 @@ def vehicle_problem(
 
 def _expected_ground_speed_m_s(scenario: Scenario, vehicle: VehicleModel) -> float:
     """All arrive together: whoever has the longest line flies at cruise, or faster where the one with the shortest
-    would otherwise be too slow; the others as much slower as their lines are shorter.
-
-    Where even the fastest would not do, at cruise all the same: the schedule then says whose line is too short.
+    would otherwise be too slow; the others as much slower as their lines are shorter, but nobody slower than an
+    aircraft can fly: whose line is too short for that will take a longer way.
     """
     lines = {of.sysid: math.dist(scenario.target_m(of)[:2], scenario.origin_m(of)[:2]) for of in scenario.vehicles}
     longest, shortest = max(lines.values()), min(lines.values())
     slowest, fastest = airspeed_range_m_s(scenario)
     cruise = scenario.airframe.airspeed_cruise_m_s
     needed = DETOUR * slowest * longest / shortest
-    return max(cruise, needed if needed <= fastest else cruise) * lines[vehicle.sysid] / longest
+    at_longest = max(cruise, needed if needed <= fastest else cruise)
+    return max(slowest, at_longest * lines[vehicle.sysid] / longest)

@@ -44,11 +44,15 @@ class Neighbours:
 
     def of(self, i: int) -> list[int]:
         """The others, in order, that may come near one."""
-        if i not in self._moved:
-            return sorted(self._near[i] | self._moved)
-        apart = np.linalg.norm(self._tracks - self._tracks[i], axis=2).min(axis=1)
-        steps = 0.5 * STRETCH * (self._lengths + self._lengths[i]) / (MOMENTS - 1)
-        return [int(j) for j in np.flatnonzero(apart < self._distance_m + steps) if j != i]
+        if i in self._moved:
+            return self._close(i, [j for j in range(len(self._near)) if j != i])
+        return sorted((self._near[i] - self._moved).union(self._close(i, sorted(self._moved))))
+
+    def _close(self, i: int, others: list[int]) -> list[int]:
+        """Which of the others come close at any moment."""
+        apart = np.linalg.norm(self._tracks[others] - self._tracks[i], axis=2).min(axis=1)
+        steps = 0.5 * STRETCH * (self._lengths[others] + self._lengths[i]) / (MOMENTS - 1)
+        return [others[k] for k in np.flatnonzero(apart < self._distance_m + steps)]
 
 
 def _track(progress: FloatArray) -> FloatArray:

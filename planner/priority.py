@@ -14,8 +14,8 @@ import numpy as np
 from missions.scenario import Scenario
 from planner.cost.constraints import with_progress
 from planner.cost.kernel import path_cost
-from planner.cost.problem import PLANNING_MARGINS
-from planner.find_path import PathFound, vehicle_problem
+from planner.cost.problem import PLANNING_MARGINS, separations_m
+from planner.find_path import PathFound
 from planner.infeasible import require_feasible
 from planner.neighbours import Neighbours
 
@@ -58,7 +58,7 @@ def without_conflicts(scenario: Scenario, alone: Sequence[PathFound], search: Se
     def too_close(i: int) -> list[int]:
         """Earlier UAVs that one's path comes too close to."""
         before = set(order[:place])
-        return [j for j in neighbours.of(i) if j in before and conflict_km(scenario, i, paths[i], paths[j]) > 0.0]
+        return [j for j in neighbours.of(i) if j in before and conflict_km(scenario, paths[i], paths[j]) > 0.0]
 
     while place < len(order):
         i = order[place]
@@ -72,7 +72,7 @@ def without_conflicts(scenario: Scenario, alone: Sequence[PathFound], search: Se
         if paths[i].feasible:
             place += 1
             continue
-        blocker = max(avoided, key=lambda j: conflict_km(scenario, i, paths[i], paths[j]))
+        blocker = max(avoided, key=lambda j: conflict_km(scenario, paths[i], paths[j]))
         if (i, blocker) in swapped or len(swapped) == SWAPS * len(order):
             require_feasible(names[i], paths[i], avoided=[names[j] for j in avoided])
         swapped.add((i, blocker))
@@ -82,10 +82,15 @@ def without_conflicts(scenario: Scenario, alone: Sequence[PathFound], search: Se
     return paths
 
 
-def conflict_km(scenario: Scenario, i: int, path: PathFound, other: PathFound) -> float:
+def conflict_km(scenario: Scenario, path: PathFound, other: PathFound) -> float:
     """What a path costs more, by f_C, for one other UAV (9)-(10)."""
-    there = with_progress(other.corners_m, other.problem)
-    problem = vehicle_problem(scenario, scenario.vehicles[i], [there])._replace(obstacles=np.empty((0, 5)))
+    there, limit_m = with_progress(other.corners_m, other.problem)[None], scenario.limits.separation_m
+    ends = path.corners_m[0], path.corners_m[-1]
+    problem = path.problem._replace(
+        others=there,
+        separations_m=separations_m(there, *ends, limit_m, PLANNING_MARGINS),
+        obstacles=np.empty((0, 5)),
+    )
     terms = np.empty(5)
     path_cost(path.corners_m, problem, True, terms)
     return float(terms[3])

@@ -115,20 +115,9 @@ def path_problem(
     environment, limits = scenario.environment, scenario.limits
     terrain, area = environment.terrain.as_array(), environment.area
 
-    def keep(limit_m: float, margin_m: float, at_ends_m: float) -> float:
-        return max(limit_m, min(limit_m + margin_m, at_ends_m - 1e-3))
-
     obstacles = [
-        (*o, keep(limits.obstacle_margin_m, margins.obstacle_m, float(wall_distances_m(ends, o).min())))
+        (*o, _keep(limits.obstacle_margin_m, margins.obstacle_m, float(wall_distances_m(ends, o).min())))
         for o in environment.obstacles
-    ]
-    separations = [
-        keep(
-            limits.separation_m,
-            margins.separation_m,
-            min(math.dist(other[0, :3], origin), math.dist(other[-1, :3], target)),
-        )
-        for other in others
     ]
     slope_min, slope_max = slope_range(scenario, expected_ground_speed_m_s)
     fastest = airspeed_range_m_s(scenario)[1] + math.hypot(*scenario.wind.forecast_m_s)
@@ -140,7 +129,7 @@ def path_problem(
         turn_max=math.radians(limits.turn_max_deg) - TURN_MARGIN,
         slope_min=slope_min * SLOPE_MARGIN,
         slope_max=slope_max * SLOPE_MARGIN,
-        clearance_m=keep(
+        clearance_m=_keep(
             limits.clearance_m, margins.clearance_m, target[2] - ground_height_m(target[0], target[1], terrain)
         ),
         climb_out_m=limits.climb_out_m,
@@ -157,6 +146,18 @@ def path_problem(
         radars=np.array(environment.radars, dtype=np.float64).reshape(-1, 5),
         obstacles=np.array(obstacles, dtype=np.float64).reshape(-1, 5),
         others=others,
-        separations_m=np.array(separations, dtype=np.float64),
+        separations_m=separations_m(others, origin, target, limits.separation_m, margins),
         bounds=bounds,
     )
+
+
+def separations_m(
+    others: FloatArray, origin_m: FloatArray, target_m: FloatArray, limit_m: float, margins: Margins
+) -> FloatArray:
+    """(n,) distances that a UAV keeps from others, as in `PathProblem`, so that the limit of separation is kept."""
+    at_ends = [min(math.dist(other[0, :3], origin_m), math.dist(other[-1, :3], target_m)) for other in others]
+    return np.array([_keep(limit_m, margins.separation_m, nearest) for nearest in at_ends], dtype=np.float64)
+
+
+def _keep(limit_m: float, margin_m: float, at_ends_m: float) -> float:
+    return max(limit_m, min(limit_m + margin_m, at_ends_m - 1e-3))

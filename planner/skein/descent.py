@@ -171,7 +171,7 @@ def polish(
     slopes = np.empty_like(corners)
     terms = np.empty(5)
     cost = math.inf
-    gradients = 0
+    gradients = judged = 0
     most = (allowance - rounds) // GRADIENT
     for _ in range(rounds):
         left = most - gradients - 1
@@ -186,7 +186,8 @@ def polish(
         rho = min(rho * GROWTH, STIFFEST)
         soft_m = max(HARDEST_M, 0.5 * soft_m)
         found = path_cost(corners, problem, True, terms)
+        judged += 1
         if found < cost:
             cost = found
             best[:] = corners
-    return cost, rho, GRADIENT * gradients + rounds
+    return cost, rho, GRADIENT * gradients + judged

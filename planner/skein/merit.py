@@ -230,7 +230,7 @@ def _terrain_cost(
     corners: Any, problem: Any, soft_m: float, least_heights: Any, least_places: Any, gradient: Any
 ) -> float:
     """f_T (5)-(6), from the least height of each leg above ground and the part of it after which it is reached; a leg's
-    ends count too, softly."""
+    ends count too, softly: which of them is least may change."""
     legs = len(corners) - 1
     heights, weights = np.empty((legs + 1, 3)), np.empty((legs, 3))
     for k in range(legs + 1):
@@ -246,22 +246,17 @@ def _terrain_cost(
     least_sum = clearance_sum * KM
     slope = -constant * legs / (least_sum * least_sum)
     for k in range(legs):
+        p, q, place = corners[k], corners[k + 1], least_places[k]
+        if 0.0 < place < 1.0:
+            between = slope * weights[k, 2]
+            add_height_slope(p, q, place, 0.0, between, problem.terrain, gradient[k], gradient[k + 1])
+        else:
+            weights[k, round(place)] += weights[k, 2]
         for end in range(2):
             weight = slope * weights[k, end]
             gradient[k + end, 0] -= weight * heights[k + end, 1]
             gradient[k + end, 1] -= weight * heights[k + end, 2]
             gradient[k + end, 2] += weight
-        if weights[k, 2] > 0.0:
-            add_height_slope(
-                corners[k],
-                corners[k + 1],
-                least_places[k],
-                0.0,
-                slope * weights[k, 2],
-                problem.terrain,
-                gradient[k],
-                gradient[k + 1],
-            )
     return constant * legs / least_sum
 
 
@@ -315,11 +310,12 @@ def _push(gradient: Any, k: int, t: float, x: float, y: float, z: float) -> None
 
 @jit
 def _soft_least(start: float, end: float, between: float, soft_m: float, weights: Any) -> float:
-    """A smooth least of the clearances at a leg's ends and of the least between them; fills in its slopes."""
+    """A smooth least of the clearances at a leg's ends and of the least on it, be that at an end or between them; fills
+    in its slopes."""
     least = min(start, end, between)
     weights[0] = math.exp((least - start) / soft_m)
     weights[1] = math.exp((least - end) / soft_m)
-    weights[2] = math.exp((least - between) / soft_m) if between < min(start, end) - 1e-6 else 0.0
+    weights[2] = math.exp((least - between) / soft_m)
     total = weights[0] + weights[1] + weights[2]
     for i in range(3):
         weights[i] /= total

@@ -26,8 +26,8 @@ MOVES = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2))
 """Half of a node's neighbours."""
 ROUGHNESS = 0.45
 """Spread of the random factors that lead later routes elsewhere, as a logarithm."""
-WALL = 0.8
-"""Half the thickness of a wall, in cells: no move of a knight leaps over it unpunished."""
+WALL = 1.12
+"""Half the thickness of a wall, in cells: no move of a knight, sqrt(5) cells, leaps over it unpunished."""
 PATCHES = 7
 """Random factors along each side, interpolated in between."""
 
