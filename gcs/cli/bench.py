@@ -51,6 +51,9 @@ KernelOption = Annotated[bool, typer.Option("--kernel", help="Measure the compil
 TogetherOption = Annotated[
     bool, typer.Option("--together", help="Plan all vehicles of the paper's scenarios together, seed by seed, instead.")
 ]
+GrowthOption = Annotated[
+    bool, typer.Option("--growth", help="Measure how planning time grows up to 100 vehicles, instead.")
+]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and figures.")]
 UpdateOption = Annotated[bool, typer.Option("--update-best", help="Keep what is better than the best-known paths.")]
 
@@ -68,6 +71,7 @@ def bench(
     update_best: UpdateOption = False,
     together: TogetherOption = False,
     kernel: KernelOption = False,
+    growth: GrowthOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare searches on many problems, at equal evaluations and at equal CPU time.
@@ -79,6 +83,9 @@ def bench(
     with exit_codes():
         if kernel:
             measure_kernel(json)
+            return
+        if growth:
+            plan_many(quick, out, json)
             return
         if together:
             plan_together(methods, seeds or (QUICK_SEEDS if quick else SEEDS), update_best, json)
@@ -139,6 +146,26 @@ def measure_kernel(json: bool) -> None:
     else:
         output.print_wide(kernel_table(speeds))
         output.print_wide(work_table(peaks, speeds))
+
+
+def plan_many(quick: bool, out: Path | None, json: bool) -> None:
+    """Plan fields of more and more vehicles."""
+    from dataclasses import asdict
+
+    from gcs.cli import output
+    from gcs.cli.bench_tables import growth_table
+    from gcs.figures.growth import draw_growth
+    from planner.bench.growth import NUMBERS, exponent, measure_growth
+
+    with output.progress.status("Planning fields of vehicles"):
+        growths = measure_growth(NUMBERS[:2] if quick else NUMBERS)
+    if json:
+        output.print_json({"growth": [asdict(growth) for growth in growths], "exponent": exponent(growths)})
+    else:
+        output.print_wide(growth_table(growths, exponent(growths)))
+    if out is not None:
+        out.mkdir(parents=True, exist_ok=True)
+        draw_growth(growths, out / "growth.png")
 
 
 def plan_together(methods: str, seeds: int, update_best: bool, json: bool) -> None:

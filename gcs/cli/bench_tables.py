@@ -7,6 +7,7 @@ from rich import box
 from rich.table import Table
 
 from planner.bench.comparison import TARGETS, Comparison
+from planner.bench.growth import Growth
 from planner.bench.job import Limit
 from planner.bench.kernel_speed import KernelSpeed
 
@@ -106,6 +107,17 @@ def together_table(figures: Sequence[Mapping[str, Any]]) -> Table:
             *(f"{rate:.0%}" for rate in row["success_rate"].values()),
             "-" if times is None else f"{times['median']:.2f}",
         )
+    return table
+
+
+def growth_table(growths: Sequence[Growth], power: float) -> Table:
+    """Planning time of fields of vehicles."""
+    table = _table(f"Planning time grows as n^{power:.2f}", "vehicles")
+    for heading in ("CPU s", "wall s", "CPU ms a vehicle"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for growth in growths:
+        row = (f"{growth.cpu_s:.2f}", f"{growth.wall_s:.2f}", f"{1e3 * growth.cpu_s / growth.uavs:.0f}")
+        table.add_row(str(growth.uavs), *row)
     return table
 
 
