@@ -31,7 +31,7 @@ NoFlightsOption = Annotated[bool, typer.Option("--no-flights", help="Show the pl
 def reproduce(
     out: OutOption = Path("reproduction"),
     seed: SeedOption = None,
-    seeds: SeedsOption = 5,
+    seeds: SeedsOption = 10,
     iterations: IterationsOption = None,
     count: CountOption = None,
     no_flights: NoFlightsOption = False,
