@@ -71,7 +71,7 @@ def broken_limit(path: PathFound, avoided: Sequence[str] = ()) -> str:
         return f"has a leg {over_m:.0f} m too {'short' if kind == 0 else 'long'} {where}"
     if kind in (2, 3):
         steepest = bounds.slope_max if kind == 2 else bounds.slope_min
-        slope = math.atan((end[2] - start[2]) / float(np.hypot(*(end - start)[:2])))
+        slope = math.atan2(end[2] - start[2], math.hypot(*(end - start)[:2]))
         verb = "climbs" if kind == 2 else "descends"
         return (
             f"{verb} at {abs(math.degrees(slope)):.1f} deg {where}, {over_m / SLOPE_WEIGHT:.0f} m more than "

@@ -37,6 +37,8 @@ SLOTS = "slots"
 """The method of a scenario whose vehicles have slots on a route: there is nothing to search for."""
 ROUTE_STREAM = 2
 """Purpose of the random streams of searches for a route, beside seed and attempt."""
+LONGER = 8
+"""Turns of planning that may ask UAVs for longer paths; then the schedule says what it can do with those there are."""
 ATTEMPTS = 4
 """Plans of one UAV, each with its own chance and wider margins, before planning gives up."""
 
@@ -130,24 +132,27 @@ def _searched(scenario: Scenario, seed: int, method: str, progress: Progress) ->
     for vehicle in vehicles:
         require_reachable(vehicle.name, vehicle_problem(scenario, vehicle), scenario.search.waypoints)
     alone = search_alone(len(vehicles), partial(search, threads=1), side_by_side=method == SKEIN)
-    for _ in range(ATTEMPTS * len(vehicles)):
+    for turn in count():
         for name, path in zip(names, alone, strict=True):
             require_feasible(name, path)
         paths = without_conflicts(scenario, alone, search)
         corners = [path.corners_m for path in paths]
-        again = too_short(corners, wishes, scenario)
+        again = too_short(corners, wishes, scenario) if turn < LONGER else {}
         if not again:
             result, report = _assembled(scenario, seed, method, paths, common_arrival(names, corners, scenario))
             if not report.violations:
                 return result
-            first = min(i for i, vehicle in enumerate(vehicles) if vehicle.sysid in report.at_fault)
-            if wishes[first].attempt + 1 == ATTEMPTS:
+            again = {
+                i: replace(wishes[i], attempt=wishes[i].attempt + 1)
+                for i, vehicle in enumerate(vehicles)
+                if vehicle.sysid in report.at_fault
+            }
+            if any(wish.attempt == ATTEMPTS for wish in again.values()):
                 require(report)
-            again = {first: replace(wishes[first], attempt=wishes[first].attempt + 1)}
         for i, wish in again.items():
             wishes[i] = wish
             alone[i] = search(i, ())
-    raise AssertionError("a UAV is planned again at most ATTEMPTS times")
+    raise AssertionError("each turn is one of LONGER, or an attempt of some UAV")
 
 
 def _on_slots(scenario: Scenario, seed: int, progress: Progress) -> tuple[FormationPlan, VerificationReport]:

@@ -130,16 +130,16 @@ def merit(
         )
         least_heights[k], least_places[k] = least, lowest
         push, added = _limit(i + 7, shortfall * KM, multipliers, rho, limits)
-        if added != 0.0:
-            value += added
+        value += added
+        if push > 0.0:
             left = bounds.climb_out_m - passed[k] - shortest * arcs[k]
             ramp = ramp_slope(p, q, shortest, left, arcs[k], bounds, terrain)
             add_height_slope(p, q, shortest, ramp * arcs[k], -push, terrain, gradient[k], gradient[k + 1])
             passed_slope[k] += push * ramp * (1.0 - shortest)
             passed_slope[k + 1] += push * ramp * shortest
         push, added = _limit(i + 8, -least * KM, multipliers, rho, limits)
-        if added != 0.0:
-            value += added
+        value += added
+        if push > 0.0:
             add_height_slope(p, q, lowest, 0.0, -push, terrain, gradient[k], gradient[k + 1])
         i += LEG_LIMITS
 
@@ -166,7 +166,8 @@ def merit(
             if distance < math.inf:
                 push, added = _limit(i + j, (obstacles[j, 4] - distance) * KM, multipliers, rho, limits)
                 value += added
-                _push(gradient, k, t, -push * nx, -push * ny, -push * nz)
+                if push > 0.0:
+                    _push(gradient, k, t, -push * nx, -push * ny, -push * nz)
             else:
                 value -= 0.5 * multipliers[i + j] * multipliers[i + j] / rho
         i += len(obstacles)
@@ -184,8 +185,8 @@ def merit(
             else:
                 distance, t, nx, ny, nz = sphere_distance(p, q, radar[0], radar[1], radar[2])
                 push, added = _limit(i + j, (radar[3] - distance) * KM, multipliers, rho, limits)
-                if added != 0.0:
-                    value += added
+                value += added
+                if push > 0.0:
                     _push(gradient, k, t, -push * nx, -push * ny, -push * nz)
         i += len(radars)
 
@@ -194,8 +195,8 @@ def merit(
             other = problem.others[j]
             distance, at, other_legs[j] = least_separation_m(p, q, start, end, other, other_legs[j])
             push, added = _limit(i + j, (problem.separations_m[j] - distance) * KM, multipliers, rho, limits)
-            if added != 0.0:
-                value += added
+            value += added
+            if push > 0.0:
                 span = max(end - start, 1e-9)
                 t = min(1.0, max(0.0, (at - start) / span))
                 x, y, z, ux, uy, uz = _at(other, at)
@@ -215,7 +216,7 @@ def merit(
     value += added
     passed_slope[legs] -= push
 
-    value += _terrain_cost(corners, problem, soft_m, least_heights, least_places, gradient)
+    value += _terrain_cost(corners, terrain, bounds.terrain_constant_km2, soft_m, least_heights, least_places, gradient)
     value += _altitude_deviation(corners, gradient)
     later = 0.0
     for k in range(legs, 0, -1):
@@ -227,20 +228,19 @@ def merit(
 
 @jit
 def _terrain_cost(
-    corners: Any, problem: Any, soft_m: float, least_heights: Any, least_places: Any, gradient: Any
+    corners: Any, terrain: Any, constant: float, soft_m: float, least_heights: Any, least_places: Any, gradient: Any
 ) -> float:
     """f_T (5)-(6), from the least height of each leg above ground and the part of it after which it is reached; a leg's
     ends count too, softly: which of them is least may change."""
     legs = len(corners) - 1
     heights, weights = np.empty((legs + 1, 3)), np.empty((legs, 3))
     for k in range(legs + 1):
-        heights[k] = ground(corners[k, 0], corners[k, 1], problem.terrain)
+        heights[k] = ground(corners[k, 0], corners[k, 1], terrain)
     clearance_sum = 0.0
     for k in range(legs):
         at_start, at_end = corners[k, 2] - heights[k, 0], corners[k + 1, 2] - heights[k + 1, 0]
         clearance_sum += _soft_least(at_start, at_end, least_heights[k], soft_m, weights[k])
     least_sum = LEAST_CLEARANCE_KM * legs
-    constant: float = problem.bounds.terrain_constant_km2
     if clearance_sum * KM <= least_sum:
         return constant * legs / least_sum
     least_sum = clearance_sum * KM
@@ -249,7 +249,7 @@ def _terrain_cost(
         p, q, place = corners[k], corners[k + 1], least_places[k]
         if 0.0 < place < 1.0:
             between = slope * weights[k, 2]
-            add_height_slope(p, q, place, 0.0, between, problem.terrain, gradient[k], gradient[k + 1])
+            add_height_slope(p, q, place, 0.0, between, terrain, gradient[k], gradient[k + 1])
         else:
             weights[k, round(place)] += weights[k, 2]
         for end in range(2):

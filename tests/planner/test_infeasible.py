@@ -110,6 +110,7 @@ def test_two_in_one_narrow_corridor_are_both_named(small_scenario: SmallScenario
         ),
         (moved(3, z=700.0), r"climbs at \d+\.\d deg on leg 3, .* m more than \d\.\d deg allow"),
         (moved(2, z=1500.0), r"(climbs|descends) at \d+\.\d deg on leg [23], "),
+        (np.vstack([LEVEL[:4], LEVEL[3] + np.array([0, 0, 900.0]), LEVEL[5:]]), r"climbs at 90\.0 deg on leg 4, "),
         (moved(3, y=7000.0), r"turns by \d+ deg at \(10714, 17000"),
         (moved(4, y=-10100.0), r"has a leg 2717 m too long on leg 5"),
     ],

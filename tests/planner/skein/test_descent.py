@@ -22,7 +22,7 @@ def descended(corners: np.ndarray, problem: Any, *, steps: int = 200, most: int 
 
 
 def value_of(corners: np.ndarray, problem: Any) -> float:
-    limits = np.empty(limits_count(len(corners) - 1, problem))
+    limits = np.zeros(limits_count(len(corners) - 1, problem))
     crossed = np.ones(len(problem.radars), bool)
     value: float = merit(corners, problem, crossed, limits * 0.0, 10.0, 20.0, limits, corners * 0.0)
     return value
