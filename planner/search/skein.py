@@ -9,8 +9,9 @@ best point and from anywhere.
 
 import numpy as np
 
-from planner.search.evolution import Evolution, population
+from planner.search.evolution import Evolution
 from planner.search.objective import FloatArray, Objective
+from planner.search.rates import population
 
 SHARE = 20
 """Evaluations a number after which evolutions are first compared; twice as many each time after."""
