@@ -23,7 +23,7 @@ def test_the_covariance_stays_positive_and_better_points_weigh_more(dimension: i
     assert all(0.0 < rate <= 1.0 for rate in (r.path, r.step, r.rank_one, r.rank_many))
 
 
-@pytest.mark.parametrize(("dimension", "points"), [(1, 4), (2, 6), (10, 10), (36, 14), (36, 112), (120, 18)])
+@pytest.mark.parametrize(("dimension", "points"), [(2, 6), (10, 10), (36, 14), (36, 112), (120, 18)])
 def test_they_are_those_of_the_methods_author(dimension: int, points: int) -> None:
     strategy = cma.CMAEvolutionStrategy([0.0] * dimension, 1.0, {"popsize": points, "verbose": -9})
     ours, theirs = rates(dimension, points), strategy.sp
