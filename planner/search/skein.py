@@ -9,15 +9,16 @@ best point and from anywhere.
 
 import numpy as np
 
-from planner.search.evolution import Evolution, population
+from planner.search.evolution import Evolution
 from planner.search.objective import FloatArray, Objective
+from planner.search.rates import population
 
 SHARE = 20
 """Evaluations a number after which evolutions are first compared; twice as many each time after."""
 CONTEST = 0.5
 """Part of the budget that comparing may take; as many evolutions begin as that allows."""
 STEPS = 0.02, 0.2
-"""First steps of the evolutions, the smallest and the largest, in widths of the box."""
+"""First steps in widths of the box: of the first evolutions, from the smallest to below the largest; of later ones."""
 GROWTH = 2
 """Of the points a generation from restart to restart: Auger and Hansen (2005)."""
 
@@ -30,7 +31,7 @@ def skein(objective: Objective, starts: FloatArray, rng: np.random.Generator) ->
     rounds = _rounds(objective)
     evolutions = [
         Evolution(places[i % len(places)], step, points)
-        for i, step in enumerate(np.geomspace(*STEPS, 2**rounds).tolist())
+        for i, step in enumerate(np.geomspace(*STEPS, 2**rounds, endpoint=False).tolist())
     ]
     for number in range(rounds):
         for evolution in evolutions:

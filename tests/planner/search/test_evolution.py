@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from planner.search.evolution import Evolution, folded, population
+from planner.search.evolution import Evolution, folded
 from planner.search.objective import BudgetSpent, FloatArray, Fun, Objective
+from planner.search.rates import population
 
 
 def objective(fun: Fun, dimension: int, budget: int) -> Objective:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from planner.search import minimize
-from planner.search.evolution import population
 from planner.search.objective import FloatArray
+from planner.search.rates import population
 
 BOX = [(-5.0, 5.0)] * 6
 
