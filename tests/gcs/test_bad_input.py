@@ -47,7 +47,7 @@ def test_a_folder_that_is_no_run(command: str, tmp_path: Path) -> None:
 
 def test_a_plan_that_was_tampered_with(tmp_path: Path) -> None:
     (tmp_path / "scenario.toml").write_text(MOUNTAINS)
-    (tmp_path / "plan.json").write_text('{"format": 1}')
+    (tmp_path / "plan.json").write_text('{"format": 2}')
     assert "plan.json: not a plan" in complaint("fly", tmp_path)
 
 
