@@ -176,7 +176,7 @@ def plan_together(methods: str, seeds: int, update_best: bool, json: bool) -> No
     from missions.scenario import load_scenario
     from planner.bench.best_known import load_best_known
     from planner.bench.problems import SCENARIOS
-    from planner.bench.together import offer_plan, plan_digest, plan_figures, plan_run
+    from planner.bench.together import offer_best_paths, offer_plan, plan_digest, plan_figures, plan_run
     from planner.find_path import METHODS, SKEIN
 
     chosen = [SKEIN] if methods == "all" else methods.split(",")
@@ -186,6 +186,8 @@ def plan_together(methods: str, seeds: int, update_best: bool, json: bool) -> No
     known, figures, better = load_best_known(), [], []
     for name in SCENARIOS:
         scenario = load_scenario(name)
+        if offer_best_paths(known, scenario):
+            better.append(name)
         best_km = known.value_km(plan_digest(scenario))
         for method in chosen:
             runs = []

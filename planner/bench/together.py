@@ -102,8 +102,24 @@ def plan_figures(runs: Sequence[PlanRun], best_known_km: float | None) -> dict[s
 
 def offer_plan(known: BestKnown, scenario: Scenario, made: FormationPlan) -> bool:
     """Keep a plan if it is feasible, margins included, and better than what is known; says whether it was."""
-    paths = [uav.waypoints_m[1:-1].reshape(-1) for uav in made.uavs]
-    digest, value = plan_digest(scenario), total_km(scenario, paths)
+    return _offer(known, scenario, [uav.waypoints_m[1:-1].reshape(-1) for uav in made.uavs], made.method, made.seed)
+
+
+def offer_best_paths(known: BestKnown, scenario: Scenario) -> bool:
+    """Keep the best-known paths of all vehicles alone as a plan of all, if they keep their distances and are better;
+    says whether it was."""
+    digests = [
+        problem_digest(vehicle_problem(scenario, vehicle), scenario.search.waypoints) for vehicle in scenario.vehicles
+    ]
+    if any(digest not in known.paths for digest in digests):
+        return False
+    best = [known.paths[digest] for digest in digests]
+    method = ", ".join(dict.fromkeys(entry.method for entry in best)) + ", each alone"
+    return _offer(known, scenario, [np.array(entry.path_m) for entry in best], method, best[0].seed)
+
+
+def _offer(known: BestKnown, scenario: Scenario, paths_m: Sequence[FloatArray], method: str, seed: int) -> bool:
+    digest, value = plan_digest(scenario), total_km(scenario, paths_m)
     best = known.value_km(digest)
     if value >= INFEASIBLE_KM or (best is not None and value >= best):
         return False
@@ -112,9 +128,9 @@ def offer_plan(known: BestKnown, scenario: Scenario, made: FormationPlan) -> boo
         scenario=scenario.name,
         digest=digest,
         value_km=value,
-        method=made.method,
-        seed=made.seed,
+        method=method,
+        seed=seed,
         found=found_now(),
-        paths_m=tuple(tuple(path.tolist()) for path in paths),
+        paths_m=tuple(tuple(path.tolist()) for path in paths_m),
     )
     return True

@@ -9,7 +9,7 @@ from missions.mission import Mission, MissionItem
 from missions.scenario import load_scenario
 from planner.bench.best_known import BestKnown, load_best_known
 from planner.bench.problems import bench_problem
-from planner.bench.together import PlanRun, offer_plan, plan_digest, plan_figures, total_km
+from planner.bench.together import PlanRun, offer_best_paths, offer_plan, plan_digest, plan_figures, total_km
 from planner.cost.kernel import INFEASIBLE_KM
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 
@@ -46,6 +46,16 @@ def test_a_plan_is_kept_when_it_is_better() -> None:
     assert offer_plan(kept, scenario, plan)
     assert not offer_plan(kept, scenario, plan)
     assert kept.value_km(plan_digest(scenario)) == pytest.approx(sum(entry.value_km for entry in entries))
+
+
+def test_best_paths_that_keep_their_distance_are_a_plan() -> None:
+    known, scenario = load_best_known(), load_scenario("mountains")
+    known.plans.clear()
+    assert offer_best_paths(known, scenario)
+    assert not offer_best_paths(known, scenario)
+    twin = scenario.model_copy(update={"vehicles": (*scenario.vehicles, scenario.vehicles[-1])})
+    assert not offer_best_paths(known, twin)
+    assert not offer_best_paths(BestKnown({}, {}), scenario)
 
 
 def test_digests_know_the_scenario() -> None:
