@@ -67,7 +67,7 @@ def _above_raster_m(
     if s0_m >= climb_out_m:
         least, lowest = least_height_above_raster_m(p, q, z0, z1, 0.0, 1.0, terrain)
         return least, lowest, clearance_m - least, lowest
-    ramp_end = min(1.0, (climb_out_m - s0_m) / (s1_m - s0_m))
+    ramp_end = min(1.0, (climb_out_m - s0_m) / max(s1_m - s0_m, SHORT_M))
     wanted0, wanted1 = clearance_m * s0_m / climb_out_m, clearance_m * s1_m / climb_out_m
     least, lowest = least_height_above_raster_m(p, q, z0, z1, 0.0, ramp_end, terrain)
     over, shortest = least_height_above_raster_m(p, q, z0 - wanted0, z1 - wanted1, 0.0, ramp_end, terrain)

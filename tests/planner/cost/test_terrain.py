@@ -1,6 +1,7 @@
 """Nothing slips between the samples of a leg."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -47,3 +48,10 @@ def test_what_is_wanted_grows_with_the_path() -> None:
     assert abs(shortfall) < 1e-9  # along the ramp exactly, and above it afterwards
     _, _, low, _ = leg_clearance_m(start, end, 0.0, 4000.0, flat, 110.0, 2000.0)
     assert 9.0 < low <= 10.0
+
+
+def test_a_leg_without_length_on_the_ramp_has_a_clearance() -> None:
+    ground = Terrain(0.0, NO_WAVE, [], np.zeros((3, 3)), 0.0, 0.0, 1000.0, 1000.0).as_array()
+    there = np.array([500.0, 500.0, 40.0])
+    least, _, shortfall, _ = leg_clearance_m(there, there, 1000.0, 1000.0, ground, 100.0, 2000.0)
+    assert (least, shortfall) == pytest.approx((40.0, 10.0))
