@@ -7,7 +7,8 @@ from missions.scenario.load import (
     scenario_folder,
     shipped_scenarios,
 )
-from missions.scenario.model import Scenario, VehicleModel
+from missions.scenario.model import Scenario
+from missions.scenario.vehicles import VehicleModel
 
 __all__ = [
     "Scenario",

@@ -6,237 +6,24 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, TypedDict
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, ValidationInfo, model_validator
+from pydantic import Field, PrivateAttr, ValidationError, ValidationInfo, model_validator
 
-from missions.airframe import Airframe
 from missions.elevation import read_raster
 from missions.environment import Area, Environment, Obstacle, Radar, Terrain, ground_height_m
 from missions.environment.raster import Raster
 from missions.environment.terrain import NO_WAVE
 from missions.errors import InputError
 from missions.frame import LocalFrame
-from missions.scenario.shape import Pattern, pattern_slots, width_of
-
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0)]
-NotNegative = Annotated[Number, Field(ge=0)]
-Fraction = Annotated[Number, Field(gt=0, le=1)]
-Count = Annotated[int, Field(strict=True, ge=1)]
-Point = tuple[Number, Number, Number]
-Vector = tuple[Number, Number]
-Range = tuple[Number, Number]
-
-
-class Keys(BaseModel):
-    """A table of the file: immutable, unknown keys refused."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class OriginModel(Keys):
-    """Where on the globe the local frame lies."""
-
-    lat_deg: Annotated[Number, Field(ge=-85, le=85)]
-    lon_deg: Annotated[Number, Field(ge=-180, le=180)]
-    alt_m: Number = 0.0
-    """AMSL altitude of z = 0."""
-
-
-class AreaModel(Keys):
-    """The box of equation (1), local frame."""
-
-    x_m: Range
-    y_m: Range
-    z_m: Range
-
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        for key in ("x_m", "y_m", "z_m"):
-            low, high = getattr(self, key)
-            if not low < high:
-                raise ValueError(f"the first number of {key} must be smaller than the second, got [{low:g}, {high:g}]")
-        return self
-
-
-class PeakModel(Keys):
-    """One mountain of equation (2)."""
-
-    height_m: Number
-    x_m: Number
-    y_m: Number
-    decline_x_m: Positive
-    decline_y_m: Positive
-
-
-class WaveModel(Keys):
-    """The datum wave Z1 of equation (2), whose sines take kilometres, times an amplitude."""
-
-    amplitude_m: Number
-    a: Number = 0.0
-    b: Number = 0.0
-    c: Number = 0.0
-    d: Number = 0.0
-    e: Number = 0.0
-    f: Number = 0.0
-    g: Number = 0.0
-
-
-class TerrainModel(Keys):
-    """The ground of equation (2), flat at `base_m` without peaks; or real ground from an elevation file."""
-
-    base_m: Number = 0.0
-    wave: WaveModel | None = None
-    peaks: tuple[PeakModel, ...] = ()
-    raster: Annotated[str, Field(min_length=1)] | None = None
-    """A .npz, .tif, .tiff or .hgt file, relative to the scenario's own, or "matplotlib:..." of its sample data. Read
-    as metres AMSL."""
-    spacing_m: Annotated[Number, Field(ge=1)] | None = None
-    """Between the posts that the raster is resampled to; about its own unless given."""
-
-    @model_validator(mode="after")
-    def _one_ground(self) -> Self:
-        if self.raster is not None and (self.base_m != 0.0 or self.wave is not None or self.peaks):
-            raise ValueError("raster takes the place of base_m, wave and peaks; leave them out")
-        if self.raster is None and self.spacing_m is not None:
-            raise ValueError("spacing_m is between the posts of a raster; name one or leave it out")
-        return self
-
-
-class RadarModel(Keys):
-    """A radar's sphere, equations (7)-(8)."""
-
-    x_m: Number
-    y_m: Number
-    z_m: Number
-    radius_m: Positive
-    intensity_m: Positive | None = None
-    """delta of (7); the radius unless given."""
-
-
-class ObstacleModel(Keys):
-    """A tall building: a vertical cylinder that stands on the ground."""
-
-    x_m: Number
-    y_m: Number
-    radius_m: Positive
-    height_m: Positive
-
-
-class SlotModel(Keys):
-    """A place in a formation that follows `route`."""
-
-    behind_m: Number
-    left_m: Number
-
-
-class VehicleModel(Keys):
-    """One vehicle: with `origin` and `target`, or with a `slot` on the route."""
-
-    name: Annotated[str, Field(min_length=1, pattern=r"^[\w-]+$")]
-    sysid: Annotated[int, Field(strict=True, ge=1, le=250)]
-    origin: Point | None = None
-    target: Point | None = None
-    slot: SlotModel | None = None
-
-    @model_validator(mode="after")
-    def _one_way_to_go(self) -> Self:
-        if self.slot is None and (self.origin is None or self.target is None):
-            raise ValueError("needs origin and target, or a slot")
-        if self.slot is not None and (self.origin is not None or self.target is not None):
-            raise ValueError("has a slot, so origin and target follow from the route; leave them out")
-        return self
-
-
-class RouteModel(Keys):
-    """The polyline that a slot formation flies, or its ends, between which one is searched; and the ground speed."""
-
-    points: Annotated[tuple[Point, ...], Field(min_length=2)]
-    """The straight line where only the ends are given: slots start and end beside it."""
-    origin: Point | None = None
-    target: Point | None = None
-    ground_speed_m_s: Positive
-
-    @model_validator(mode="before")
-    @classmethod
-    def _straight_between_ends(cls, data: Any) -> Any:
-        if isinstance(data, dict) and data.get("origin") is not None and data.get("target") is not None:
-            ends, points = [data["origin"], data["target"]], data.get("points")
-            if points is not None and list(points) != ends:
-                raise ValueError("takes either points, or origin and target between which a route is searched")
-            return {**data, "points": ends}
-        return data
-
-    @property
-    def is_searched(self) -> bool:
-        """Whether only its ends are given."""
-        return self.origin is not None and self.target is not None
-
-
-class ShapeModel(Keys):
-    """A formation's pattern, from which vehicles' slots follow."""
-
-    pattern: Pattern
-    count: Annotated[int, Field(strict=True, ge=1, le=250)] | None = None
-    """Vehicles; as many as are listed unless given."""
-    spacing_m: Positive | None = None
-    """Between neighbours; or"""
-    width_m: Positive | None = None
-    """from the leftmost to the rightmost slot."""
-
-    @model_validator(mode="after")
-    def _measured(self) -> Self:
-        measures = [key for key in ("spacing_m", "width_m") if getattr(self, key) is not None]
-        if self.pattern == "custom":
-            if measures:
-                raise ValueError(f"a custom shape's slots stand at the vehicles; leave {measures[0]} out")
-        elif len(measures) != 1:
-            raise ValueError("give either spacing_m (between neighbours) or width_m (of the whole)")
-        elif self.pattern == "column" and self.width_m is not None:
-            raise ValueError("a column has no width; give spacing_m")
-        return self
-
-    def slots(self, count: int) -> list[SlotModel]:
-        """Of `count` vehicles, the leader's first; none for a custom shape."""
-        if self.pattern == "custom":
-            return []
-        places = pattern_slots(self.pattern, count)
-        spacing_m = self.spacing_m or (self.width_m or 0.0) / (width_of(places) or 1.0)
-        return [SlotModel(behind_m=spacing_m * behind, left_m=spacing_m * left) for behind, left in places]
-
-
-class AirframeModel(Keys):
-    """The aircraft type. Sources of the shipped values stand in the shipped files."""
-
-    name: str
-    mass_kg: Positive
-    wing_area_m2: Positive
-    drag_coefficient_zero_lift: Positive
-    induced_drag_factor: Positive
-    lift_coefficient_max: Positive
-    shaft_power_w: Positive
-    propeller_efficiency: Fraction
-    static_thrust_n: Positive
-    airspeed_min_m_s: Positive
-    airspeed_max_m_s: Positive
-    airspeed_cruise_m_s: Positive
-    climb_rate_min_m_s: Annotated[Number, Field(lt=0)]
-    climb_rate_max_m_s: Positive
-    load_factor_max: Annotated[Number, Field(gt=1)]
-    bank_max_deg: Annotated[Number, Field(gt=0, lt=80)]
-    thrust_lag_s: Positive
-    bank_lag_s: Positive
-    lift_lag_s: Positive
-
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        if not self.airspeed_min_m_s < self.airspeed_cruise_m_s < self.airspeed_max_m_s:
-            raise ValueError("airspeeds must rise from airspeed_min_m_s over airspeed_cruise_m_s to airspeed_max_m_s")
-        return self
-
-    def airframe(self) -> Airframe:
-        """The values for the compiled core."""
-        values = self.model_dump(exclude={"name", "bank_max_deg"})
-        return Airframe(bank_max=math.radians(self.bank_max_deg), **values)
+from missions.scenario.aircraft import AirframeModel
+from missions.scenario.keys import Count, Keys, NotNegative, Number, Point, Positive, Vector
+from missions.scenario.places import (
+    AreaModel,
+    ObstacleModel,
+    OriginModel,
+    RadarModel,
+    TerrainModel,
+)
+from missions.scenario.vehicles import RouteModel, ShapeModel, VehicleModel
 
 
 class FormationModel(Keys):

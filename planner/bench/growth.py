@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from missions.scenario import Scenario, load_scenario
-from missions.scenario.model import AreaModel, ObstacleModel, RadarModel
+from missions.scenario.places import AreaModel, ObstacleModel, RadarModel
 from planner.plan import plan
 
 NUMBERS = (10, 20, 50, 100)

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from missions.commands import Command
 from missions.mission import Mission, MissionItem
 from missions.scenario import Scenario, load_scenario
-from missions.scenario.model import ObstacleModel, PeakModel, SlotModel, TerrainModel
+from missions.scenario.places import ObstacleModel, PeakModel, TerrainModel
+from missions.scenario.vehicles import SlotModel
 from planner.formation_plan import FormationPlan
 from planner.loiter import Circle
 from planner.plan import plan

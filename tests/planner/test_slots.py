@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from missions.errors import InputError
 from missions.scenario import VehicleModel, load_scenario
-from missions.scenario.model import SlotModel
+from missions.scenario.vehicles import SlotModel
 from planner.plan import plan
 from planner.slots import SINGLE_FILE, full_width, route_of, slot_path_m, slot_schedule, staggered_behind_m
 from planner.verify import verify

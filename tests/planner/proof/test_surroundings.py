@@ -12,7 +12,7 @@ from missions.environment.obstacles import wall_distances_m
 from missions.environment.terrain import AIRBORNE_M
 from missions.reference import Reference
 from missions.scenario import Scenario
-from missions.scenario.model import AreaModel, ObstacleModel, PeakModel, TerrainModel
+from missions.scenario.places import AreaModel, ObstacleModel, PeakModel, TerrainModel
 from planner.proof.bracket import RESOLUTION_M, Least
 from planner.proof.surroundings import circle_points, surroundings
 from planner.proof.tracks import Tracks
