@@ -52,6 +52,9 @@ LEAST_ALLOWANCE = 50
 """Evaluations below which a descent is not worth its beginning."""
 JUMPS, OTHER_ROUTES = 5, 3
 """Starts of each round that follows, once nothing better lies beside the best path."""
+FAINT = 0.3
+"""A radar whose edge costs less than this, kilometres a kilometre, may be flown through from the start. Others are
+crossed only where there is no other way, and from within; round their edge is cheaper than just inside."""
 GAIN = 1e-4
 """What counts as better, relative."""
 WEIGHT, SOFTNESS_M = 10.0, 50.0
@@ -135,11 +138,12 @@ class PathSearch:
         self._report = report
         self._patience = patience
         self._pool = ThreadPoolExecutor(threads)
-        inside = [
-            any(math.dist(end, radar[:3]) < radar[3] for end in (problem.origin_m, problem.target_m))
+        crossed = [
+            (radar[4] / radar[3]) ** 4 < FAINT
+            or any(math.dist(end, radar[:3]) < radar[3] for end in (problem.origin_m, problem.target_m))
             for radar in problem.radars
         ]
-        self._within = np.array(inside, dtype=np.bool_)
+        self._crossed = np.array(crossed, dtype=np.bool_)
         self.best_m = np.linspace(problem.origin_m, problem.target_m, waypoints + 2)
         self.cost_km = math.inf
 
@@ -187,7 +191,7 @@ class PathSearch:
         return first + later
 
     def _descent(self, start_m: FloatArray, *, through: bool = False) -> Descent:
-        crossed = self._within | through
+        crossed = self._crossed | through
         return Descent(start_m.copy(), crossed, np.zeros(self._limits), WEIGHT, SOFTNESS_M, start_m.copy(), math.inf)
 
     def _follow(self, descents: list[Descent], stages: Iterable[Stage]) -> None:
@@ -234,7 +238,7 @@ class PathSearch:
         through = np.array([self._crosses(radar) for radar in self.problem.radars], dtype=np.bool_)
         if through.any():
             again = self._descent(self.best_m)
-            again.crossed = self._within | through
+            again.crossed = self._crossed | through
             starts.append(again)
         self._follow(starts, WHOLE)
         return self.cost_km < before * (1.0 - GAIN)

@@ -100,3 +100,18 @@ def test_a_least_length_is_flown(make_problem: Any) -> None:
     corners = np.vstack([problem.origin_m, result.x.reshape(-1, 3), problem.target_m])
     flown = sum(math.dist(p, q) for p, q in itertools.pairwise(corners))
     assert 26000.0 <= flown < 26500.0
+
+
+@pytest.mark.parametrize(("intensity", "crosses"), [(0.3, True), (1.0, False)])
+def test_a_faint_radar_is_flown_through_and_a_strong_one_flown_round(
+    make_problem: Any, intensity: float, crosses: bool
+) -> None:
+    wide = [(10000.0, 0.0, 500.0, 3000.0, 3000.0 * intensity)]
+    problem = make_problem(radars=wide)
+    result = searched(problem, budget=20000, seed=0)
+    corners = problem.corners_m(result.x)
+    t = np.linspace(0.0, 1.0, 200)[:, None]
+    points = np.concatenate([p + t * (q - p) for p, q in itertools.pairwise(corners)])
+    nearest = float(np.linalg.norm(points - wide[0][:3], axis=1).min())
+    assert (nearest < 2500.0) == crosses
+    assert result.fun < INFEASIBLE_KM
