@@ -13,7 +13,7 @@ from planner.cost.constraints import with_progress
 from planner.cost.kernel import INFEASIBLE_KM, evaluate
 from planner.cost.problem import PLANNING_MARGINS, Margins, PathProblem, path_problem
 from planner.first_paths import box, first_paths
-from planner.limits import airspeed_range_m_s
+from planner.limits import airspeed_range_m_s, slope_range
 from planner.search import minimize
 from planner.skein.search import skein_path
 
@@ -33,6 +33,8 @@ SEARCH_STREAM = 1
 """Purpose of the random streams of searches, beside seed, sysid and attempt."""
 DETOUR = 1.05
 """How much longer than its line the longest path may become before the slowest aircraft would be too slow."""
+CLIMBS = 0.98
+"""Part of the steepest climb that a straight line may take for its UAV to be hurried."""
 WIDER = 0.5
 """Of the planning margins: what each further attempt adds."""
 
@@ -164,13 +166,18 @@ def vehicle_problem(
 
 def _expected_ground_speed_m_s(scenario: Scenario, vehicle: VehicleModel) -> float:
     """All arrive together: whoever has the longest line flies at cruise, or faster where the one with the shortest
-    would otherwise be too slow; the others as much slower as their lines are shorter, but nobody slower than an
-    aircraft can fly: whose line is too short for that will take a longer way.
+    would otherwise be too slow and all still climb to their targets; the others as much slower as their lines are
+    shorter, but nobody slower than an aircraft can fly: whose line is too short for that will take a longer way.
     """
-    lines = {of.sysid: math.dist(scenario.target_m(of)[:2], scenario.origin_m(of)[:2]) for of in scenario.vehicles}
+    ends = {of.sysid: (scenario.origin_m(of), scenario.target_m(of)) for of in scenario.vehicles}
+    lines = {sysid: math.dist(start[:2], end[:2]) for sysid, (start, end) in ends.items()}
     longest, shortest = max(lines.values()), min(lines.values())
     slowest, fastest = airspeed_range_m_s(scenario)
-    cruise = scenario.airframe.airspeed_cruise_m_s
+    at_longest = scenario.airframe.airspeed_cruise_m_s
     needed = DETOUR * slowest * longest / shortest
-    at_longest = max(cruise, needed if needed <= fastest else cruise)
+    if at_longest < needed <= fastest and all(
+        end[2] - start[2] < CLIMBS * lines[sysid] * slope_range(scenario, needed * lines[sysid] / longest)[1]
+        for sysid, (start, end) in ends.items()
+    ):
+        at_longest = needed
     return max(slowest, at_longest * lines[vehicle.sysid] / longest)

@@ -34,7 +34,8 @@ def find_route(scenario: Scenario, find: FindPath) -> FittedSlots:
     Raises:
         InputError: there is none; says what was wrong with the last one.
     """
-    why = "no path was found between its ends, not even for one aircraft alone"
+    depth_m = max(vehicle.slot.behind_m for vehicle in scenario.vehicles if vehicle.slot)
+    why = f"no path was found between its ends whose legs are long and flat enough for slots {depth_m:.0f} m deep"
     for share in WIDTHS:
         problem = route_problem(scenario, share)
         line_m = math.dist(problem.origin_m, problem.target_m)
@@ -46,7 +47,7 @@ def find_route(scenario: Scenario, find: FindPath) -> FittedSlots:
             return fit_slots(scenario, route_m)
         except InputError as error:
             why = str(error)
-    raise InputError(f"{scenario.name}: route: {why}; move its ends, loosen limits, or make the formation narrower")
+    raise InputError(f"{scenario.name}: route: {why}; move its ends, loosen limits, or make the formation smaller")
 
 
 def route_problem(scenario: Scenario, share: float) -> PathProblem:

@@ -6,7 +6,7 @@ from rich.table import Table
 
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
-from planner.standing import standings
+from planner.standing import Standing, standings
 from sitl.swarm import Swarm
 
 
@@ -23,12 +23,19 @@ def plan_table(plan: FormationPlan, scenario: Scenario) -> Table:
             f"{uav.sysid} {uav.name}",
             f"{terms.fitness:.3f}",
             f"{terms.fitness * 1000.0 / uav.straight_line_m:.3f}",
-            _shown(standing.gap, ".2%"),
+            _gap(standing),
             *(f"{term:.2f}" for term in (terms.length, terms.terrain, terms.radar, terms.altitude)),
         )
     table.add_section()
-    table.add_row("all", f"{together.fitness_km:.3f}", "", _shown(together.gap, ".2%"))
+    table.add_row("all", f"{together.fitness_km:.3f}", "", _gap(together))
     return table
+
+
+def _gap(standing: Standing) -> str:
+    """Per cent above the best known; below it, by how much, when that shows."""
+    if standing.gap is None:
+        return "-"
+    return f"{round(100.0 * standing.gap, 3) + 0.0:.3f}%"
 
 
 def flight_table(metrics: dict[str, Any]) -> Table:

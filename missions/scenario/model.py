@@ -72,7 +72,7 @@ class SearchModel(Keys):
     """How paths are searched for."""
 
     method: Literal["skein", "pso", "qpso", "hybrid", "published"] = "skein"
-    waypoints: Count = 12
+    waypoints: Annotated[int, Field(strict=True, ge=1, le=60)] = 12
     """Interior waypoints of each path."""
     population: Annotated[int, Field(strict=True, ge=4)] = 150
     iterations: Count = 200

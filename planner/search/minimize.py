@@ -54,14 +54,18 @@ def minimize(
         raise InputError(
             f"method {method}: must be one of {', '.join(METHODS)}{f'; did you mean {near[0]}?' if near else ''}"
         )
-    if budget < 1:
-        raise InputError(f"budget {budget}: must be 1 or more evaluations")
+    if not isinstance(budget, int | np.integer) or budget < 1:
+        raise InputError(f"budget {budget!r}: must be a whole number of evaluations, 1 or more")
+    try:
+        rng = np.random.default_rng(seed)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"seed {seed!r}: {error}") from None
     low, high = _box(bounds)
     starts = _starts(x0, low, high)
-    objective = Objective(fun, low, high, budget, callback)
+    objective = Objective(fun, low, high, int(budget), callback)
     status = ENDED
     try:
-        METHODS[method](objective, starts, np.random.default_rng(seed))
+        METHODS[method](objective, starts, rng)
     except BudgetSpent:
         status = BUDGET_SPENT
     except Stopped:

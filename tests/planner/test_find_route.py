@@ -68,7 +68,7 @@ def test_narrower_formations_are_tried_one_after_the_other() -> None:
 
 
 def test_without_any_path_the_scenario_and_the_reason_are_named() -> None:
-    with pytest.raises(InputError, match="vee: route: no path was found between its ends, not even for one aircraft"):
+    with pytest.raises(InputError, match="vee: route: no path was found between its ends whose legs are"):
         find_route(searched(), lambda problem, waypoints: None)
 
 

@@ -31,7 +31,9 @@ def test_all_kinds_of_seeds_are_taken() -> None:
     ("wrong", "message"),
     [
         ({"method": "cmaess"}, r"method cmaess: must be one of .*pso.*; did you mean cmaes\?"),
-        ({"budget": 0}, "budget 0: must be 1 or more evaluations"),
+        ({"budget": 0}, "budget 0: must be a whole number of evaluations, 1 or more"),
+        ({"budget": 1e3}, "budget 1000.0: must be a whole number"),
+        ({"seed": -1}, "seed -1: expected non-negative integer"),
         (
             {"bounds": [(0.0, 1.0), (2.0, 1.0)]},
             r"bounds\[1\]: the lowest value must be below the highest, got 2.0",
