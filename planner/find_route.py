@@ -20,6 +20,9 @@ FindPath = Callable[[PathProblem, int], FloatArray | None]
 
 WIDTHS = (1.0, 0.75, 0.5, 0.25, 0.0)
 """Parts of the formation's half-width that are left free on both sides of a route, widest first."""
+HASTY = 0.1
+"""Part of the depth that legs are made long for where no route has legs for all of it: what does not fit then is found
+when the slots are fitted."""
 SPARE_SLOPE = 0.95
 """Part of the slope limits that a route may use: not all slots fly at its speed."""
 LONG = 3.0
@@ -36,8 +39,8 @@ def find_route(scenario: Scenario, find: FindPath) -> FittedSlots:
     """
     depth_m = max(vehicle.slot.behind_m for vehicle in scenario.vehicles if vehicle.slot)
     why = f"no path was found between its ends whose legs are long and flat enough for slots {depth_m:.0f} m deep"
-    for share in WIDTHS:
-        problem = route_problem(scenario, share)
+    for share, depth_share in (*((width, 1.0) for width in WIDTHS), *((width, HASTY) for width in WIDTHS)):
+        problem = route_problem(scenario, share, depth_share)
         line_m = math.dist(problem.origin_m, problem.target_m)
         waypoints = min(scenario.search.waypoints, max(1, int(FILLED * line_m / problem.bounds.leg_min_m) - 1))
         route_m = find(problem, waypoints)
@@ -50,8 +53,9 @@ def find_route(scenario: Scenario, find: FindPath) -> FittedSlots:
     raise InputError(f"{scenario.name}: route: {why}; move its ends, loosen limits, or make the formation smaller")
 
 
-def route_problem(scenario: Scenario, share: float) -> PathProblem:
-    """The problem of a path in the middle of a formation, with a part of its half-width free on both sides.
+def route_problem(scenario: Scenario, share: float, depth_share: float = 1.0) -> PathProblem:
+    """The problem of a path in the middle of a formation, with a part of its half-width free on both sides and its legs
+    long enough for a part of its depth.
 
     Obstacles keep that much more distance, except where an end of the route is nearer; the area is that much
     narrower; the ground is as high as it is anywhere that near. Two turns, and at the end the place of the last slot,
@@ -74,7 +78,7 @@ def route_problem(scenario: Scenario, share: float) -> PathProblem:
         row[4] = max(row[4], min(row[4] + aside, at_ends))
     bounds = problem.bounds
     two_turns = 2.0 * math.tan(bounds.turn_max / 2)
-    cut = aside * two_turns + depth
+    cut = aside * two_turns + depth_share * depth
     longest = bounds.leg_max_m - half_width * two_turns - depth
     shortest = max(bounds.leg_min_m + cut, min(LONG * cut, longest / 2))
     steeper = shortest / (shortest - cut)

@@ -67,6 +67,15 @@ def test_narrower_formations_are_tried_one_after_the_other() -> None:
     assert slots.fit.scale[2] < 0.5
 
 
+def test_a_formation_deeper_than_its_legs_are_steep_for_finds_a_route() -> None:
+    """Legs long enough for all of a column's 2 km would climb too gently to reach the target."""
+    column = searched(
+        shape={"pattern": "column", "count": 9, "spacing_m": 250.0}, route=ENDS | {"target": (18000.0, 0.0, 560.0)}
+    )
+    result = plan(column)
+    assert verify(result, column).violations == ()
+
+
 def test_without_any_path_the_scenario_and_the_reason_are_named() -> None:
     with pytest.raises(InputError, match="vee: route: no path was found between its ends whose legs are"):
         find_route(searched(), lambda problem, waypoints: None)
