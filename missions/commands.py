@@ -4,12 +4,25 @@ from enum import IntEnum
 
 
 class Command(IntEnum):
-    """MAV_CMD numbers of the mission items that Skein writes and flies."""
+    """MAV_CMD numbers of the items that Skein's missions, fences and rally points are made of."""
 
     NAV_WAYPOINT = 16
     NAV_LOITER_UNLIM = 17
+    NAV_LOITER_TURNS = 18
+    NAV_LOITER_TIME = 19
+    NAV_RETURN_TO_LAUNCH = 20
+    NAV_LAND = 21
     NAV_TAKEOFF = 22
+    NAV_LOITER_TO_ALT = 31
+    DO_JUMP = 177
     DO_CHANGE_SPEED = 178
+    DO_LAND_START = 189
+    NAV_FENCE_RETURN_POINT = 5000
+    NAV_FENCE_POLYGON_VERTEX_INCLUSION = 5001
+    NAV_FENCE_POLYGON_VERTEX_EXCLUSION = 5002
+    NAV_FENCE_CIRCLE_INCLUSION = 5003
+    NAV_FENCE_CIRCLE_EXCLUSION = 5004
+    NAV_RALLY_POINT = 5100
 
 
 class Frame(IntEnum):

@@ -20,9 +20,9 @@ from sitl.config import VehicleConfig
 from sitl.ending import Ending
 from sitl.events import StatusText
 from sitl.formation.exchange import Exchange
-from sitl.parameters import arduplane_parameters
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
+from sitl.store import Store
 from sitl.ticks import TICK_S
 from sitl.truth import TruthWriter
 from sitl.vehicle import Vehicle
@@ -44,6 +44,7 @@ class EndpointConfig:
         stations: (host, port) that telemetry goes to over UDP.
         tcp_port: of its TCP server; 0 for a free one.
         truth: the file for its truth; None keeps none.
+        memory: the folder of what it remembers over restarts; None forgets.
         held: whether its clock starts held.
         speed: factor of its clock; infinite for as fast as it goes.
     """
@@ -54,6 +55,7 @@ class EndpointConfig:
     stations: tuple[tuple[str, int], ...]
     tcp_port: int
     truth: Path | None
+    memory: Path | None
     held: bool
     speed: float = math.inf
 
@@ -108,14 +110,13 @@ def _serve(config: EndpointConfig, reports: Connection, ending: Ending) -> Ended
     """Open everything, fly, close everything."""
     sysid = config.vehicle.sysid
     truth = TruthWriter(config.truth)
-    vehicle = Vehicle(config.vehicle, truth)
+    vehicle = Vehicle(config.vehicle, truth, Store(config.memory))
     with (
         contextlib.closing(truth),
         contextlib.closing(StationLinks(config.tcp_port, config.stations)) as links,
         open_session(config.peer) as session,
     ):
-        parameters = arduplane_parameters(sysid, config.vehicle.airframe)
-        face = MavlinkFace(vehicle, config.vehicle.frame, links.send, time.monotonic, parameters)
+        face = MavlinkFace(vehicle, config.vehicle.frame, links.send, time.monotonic)
         links.attach(face)
         exchange = Exchange(session, config.swarm, sysid, config.vehicle.weights)
         clock = Clock(held=config.held, speed=config.speed, on_stop=exchange.stop)

@@ -8,4 +8,7 @@ class Mode(IntEnum):
 
     MANUAL = 0
     AUTO = 10
+    RTL = 11
     LOITER = 12
+    TAKEOFF = 13
+    GUIDED = 15

@@ -37,6 +37,7 @@ class SwarmOptions:
         stations: (host, port) that telemetry goes to over UDP.
         tcp_port: of the first vehicle, 10 more each for the others; 0 for free ones.
         truth: folder for the truth files; None keeps none.
+        memory: folder of what the vehicles remember over restarts, one each in it; None forgets.
     """
 
     seed: int
@@ -47,6 +48,7 @@ class SwarmOptions:
     stations: tuple[tuple[str, int], ...] = ()
     tcp_port: int = 0
     truth: Path | None = None
+    memory: Path | None = None
 
 
 @dataclass
@@ -127,6 +129,7 @@ class Swarm:
             stations=options.stations,
             tcp_port=options.tcp_port + 10 * i if options.tcp_port else 0,
             truth=options.truth / f"{vehicle.sysid}.f64" if options.truth else None,
+            memory=options.memory / str(vehicle.sysid) if options.memory else None,
             held=options.held,
             speed=options.speed,
         )

@@ -2,11 +2,12 @@
 
 import threading
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from missions.airframe import thrust_max_n
 from missions.commands import NAVIGATION, Command, Frame
 from missions.mission import Mission, MissionItem
+from missions.plan_type import PlanType
 from missions.reference.reference import fillet_radius_m
 from sitl.aircraft.gusts import NORMALS_PER_TICK
 from sitl.config import VehicleConfig
@@ -30,7 +31,9 @@ from sitl.guidance.path_law import Accelerations, speed_acceleration
 from sitl.mission_progress import MissionProgress
 from sitl.modes import Mode
 from sitl.noise import Stream, normals
+from sitl.parameters import Parameters, arduplane_parameters
 from sitl.snapshot import Snapshot
+from sitl.store import Store
 from sitl.ticks import TICK_S
 from sitl.truth import TruthWriter
 
@@ -47,9 +50,10 @@ class Vehicle:
     Args:
         config: what it is told at its start.
         truth: takes its state at each tick.
+        store: keeps plans and parameters over restarts.
     """
 
-    def __init__(self, config: VehicleConfig, truth: TruthWriter) -> None:
+    def __init__(self, config: VehicleConfig, truth: TruthWriter, store: Store | None = None) -> None:
         self.lock = threading.RLock()
         self.sysid = config.sysid
         self.tick = 0
@@ -59,6 +63,8 @@ class Vehicle:
         altitude_m = config.home_m[2] + config.frame.alt_m
         self.home = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=lat_e7, lon_e7=lon_e7, alt_m=altitude_m)
         self.mission = Mission((self.home,))
+        self.parameters = Parameters(arduplane_parameters(config.sysid, config.airframe), store or Store())
+        self._plans: dict[PlanType, tuple[MissionItem, ...]] = {PlanType.FENCE: (), PlanType.RALLY: ()}
 
         self._config = config
         self._truth = truth
@@ -96,12 +102,53 @@ class Vehicle:
         self._errors = None
         self._flight = at_point(self._flight, START)
 
-    def arm(self) -> str | None:
+    def items(self, plan: PlanType) -> tuple[MissionItem, ...]:
+        """The plan held of one type; a mission has at least home."""
+        return self.mission.items if plan == PlanType.MISSION else self._plans[plan]
+
+    def load(self, plan: PlanType, items: Sequence[MissionItem]) -> None:
+        """Take over a plan of one type. Raises InputError when it cannot be flown."""
+        if plan == PlanType.MISSION:
+            self.load_mission(Mission(tuple(items)))
+        else:
+            self._plans[plan] = tuple(items)
+
+    def set_current(self, seq: int) -> str | None:
+        """Go on with this item of the mission."""
+        return "not yet"
+
+    def change_speed(self, speed_m_s: float, *, over_ground: bool) -> str | None:
+        """Fly at another speed from now on."""
+        return "not yet"
+
+    def take_off(self, altitude_m: float) -> str | None:
+        """Take off in mode TAKEOFF."""
+        return "not yet"
+
+    def reposition(self, item: MissionItem) -> str | None:
+        """Fly to a place in mode GUIDED and circle there."""
+        return "not yet"
+
+    def set_home(self, home: MissionItem | None) -> str | None:
+        """Change home."""
+        return "not yet"
+
+    def enable_fence(self, enabled: bool) -> str | None:
+        """Heed the fence, or not."""
+        return "not yet"
+
+    def hear_station(self, now_s: float) -> None:
+        """The station has been heard."""
+
+    def watch_station(self, now_s: float) -> None:
+        """Wall time has passed."""
+
+    def arm(self, *, force: bool = False) -> str | None:
         """Arm; returns the reason when it cannot be done."""
         self.armed = True
         return None
 
-    def disarm(self) -> str | None:
+    def disarm(self, *, force: bool = False) -> str | None:
         """Disarm; returns the reason when it cannot be done."""
         if self.airborne:
             return "flying"
@@ -118,6 +165,8 @@ class Vehicle:
             return "not flying"
         if mode == Mode.MANUAL and self.airborne:
             return "nobody at the sticks"
+        if mode in (Mode.RTL, Mode.TAKEOFF, Mode.GUIDED):
+            return "not yet"
         self.mode = mode
         if mode == Mode.LOITER:
             self._errors = None

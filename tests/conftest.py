@@ -1,7 +1,7 @@
 """Fixtures that several floors share."""
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import pytest
@@ -10,9 +10,12 @@ from missions.commands import Command, Frame
 from missions.errors import InputError
 from missions.frame import LocalFrame
 from missions.mission import Mission, MissionItem
+from missions.plan_type import PlanType
 from sitl.events import ItemReached, StatusText
 from sitl.modes import Mode
+from sitl.parameters import INT16, REAL, Parameter, Parameters
 from sitl.snapshot import Snapshot
+from sitl.store import Store
 
 HOME = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=465_000_000, lon_e7=113_000_000, alt_m=1200.0)
 
@@ -25,6 +28,16 @@ class FakeVehicle:
         self.lock = threading.RLock()
         self.home = HOME
         self.mission = Mission((HOME,))
+        self.others: dict[PlanType, tuple[MissionItem, ...]] = {PlanType.FENCE: (), PlanType.RALLY: ()}
+        self.parameters = Parameters(
+            [Parameter(f"SIM_{n}", REAL, float(n), -1e6, 1e6) for n in range(45)]
+            + [
+                Parameter("WP_RADIUS", REAL, 90.0, 1.0, 32767.0),
+                Parameter("MIS_TOTAL", INT16, 0, 0, 9, read_only=True),
+            ],
+            Store(),
+        )
+        self.asked: list[tuple[object, ...]] = []
         self.events: list[ItemReached | StatusText] = []
         self.refusal: str | None = None
         self.state = Snapshot(
@@ -55,18 +68,52 @@ class FakeVehicle:
     def snapshot(self) -> Snapshot:
         return self.state
 
-    def load_mission(self, mission: Mission) -> None:
+    def items(self, plan: PlanType) -> tuple[MissionItem, ...]:
+        return self.mission.items if plan == PlanType.MISSION else self.others[plan]
+
+    def load(self, plan: PlanType, items: Sequence[MissionItem]) -> None:
         if self.refusal is not None:
             raise InputError(self.refusal)
-        self.mission = mission
+        if plan == PlanType.MISSION:
+            self.mission = Mission(tuple(items))
+        else:
+            self.others[plan] = tuple(items)
 
-    def arm(self) -> str | None:
+    def ask(self, *asked: object) -> str | None:
+        self.asked.append(asked)
+        return self.refusal
+
+    def set_current(self, seq: int) -> str | None:
+        return self.ask("set_current", seq)
+
+    def change_speed(self, speed_m_s: float, *, over_ground: bool) -> str | None:
+        return self.ask("change_speed", speed_m_s, over_ground)
+
+    def take_off(self, altitude_m: float) -> str | None:
+        return self.ask("take_off", altitude_m)
+
+    def reposition(self, item: MissionItem) -> str | None:
+        return self.ask("reposition", item)
+
+    def set_home(self, home: MissionItem | None) -> str | None:
+        return self.ask("set_home", home)
+
+    def enable_fence(self, enabled: bool) -> str | None:
+        return self.ask("enable_fence", enabled)
+
+    def hear_station(self, now_s: float) -> None:
+        self.ask("hear_station", now_s)
+
+    def watch_station(self, now_s: float) -> None:
+        """Silence does not bother it."""
+
+    def arm(self, *, force: bool = False) -> str | None:
         if len(self.mission) == 1:
             return "no mission: upload one first"
         self.change(armed=True)
         return None
 
-    def disarm(self) -> str | None:
+    def disarm(self, *, force: bool = False) -> str | None:
         if self.state.airborne:
             return "in flight"
         self.change(armed=False)

@@ -1,6 +1,6 @@
 """A vehicle as its stations see it: all of its MAVLink services behind one entrance."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
@@ -34,7 +34,6 @@ class MavlinkFace:
         frame: the local frame of its position.
         send: puts bytes on the wire to a peer; must not block.
         now: wall time in seconds; only differences matter.
-        parameters: name to (value, MAV_PARAM_TYPE).
     """
 
     def __init__(
@@ -43,7 +42,6 @@ class MavlinkFace:
         frame: LocalFrame,
         send: Callable[[Peer, bytes], None],
         now: Callable[[], float],
-        parameters: Mapping[str, tuple[float, int]],
     ) -> None:
         self._vehicle = vehicle
         self._frame = frame
@@ -55,7 +53,7 @@ class MavlinkFace:
         self._text_id = 0
         self._telemetry = Telemetry()
         self._missions = MissionServer(vehicle, self._reply, self._report, now)
-        self._parameters = ParameterServer(parameters, self._reply, self._report)
+        self._parameters = ParameterServer(vehicle.parameters, self._reply, self._report)
         self._commands = CommandServer(vehicle, self._telemetry, self._view, self._reply, self._report)
 
     @property

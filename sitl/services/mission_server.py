@@ -7,6 +7,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from missions.errors import InputError
 from missions.mission import Mission, MissionItem
+from missions.plan_type import PlanType
 from sitl.events import StatusText
 from sitl.modes import Mode
 from sitl.services.mission_items import check_item, item_message
@@ -175,7 +176,7 @@ class MissionServer:
             self._request_next(upload)
             return
         try:
-            self._vehicle.load_mission(Mission(tuple(upload.items)))
+            self._vehicle.load(PlanType.MISSION, upload.items)
         except InputError as error:
             self._warn(str(error))
             self._end_upload(upload, message.seq, mavlink.MAV_MISSION_ERROR)
@@ -222,7 +223,7 @@ class MissionServer:
     def _clear(self, station: Station, mission_type: int) -> None:
         self._end_own_upload(station)
         self._ended = None
-        self._vehicle.load_mission(Mission((self._vehicle.home,)))
+        self._vehicle.load(PlanType.MISSION, (self._vehicle.home,))
         self._ack(station, _ACCEPTED, mission_type)
 
     def _on_ack(self, message: Message, station: Station) -> None:

@@ -1,10 +1,12 @@
-"""The parameter protocol, reading only."""
+"""The parameter protocol: list, read, set."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from missions.errors import InputError
 from sitl.events import StatusText
+from sitl.parameters import Parameters
 from sitl.services.peer import Message, Peer, Send, Station
 
 PER_TICK = 20
@@ -17,16 +19,14 @@ class ParameterServer:
     """Serves a vehicle's parameters; values are sent as floats (PARAM_ENCODE_C_CAST), as ArduPilot does.
 
     Args:
-        parameters: name to (value, MAV_PARAM_TYPE), in the order of their indices.
+        parameters: served in the order of their names.
         send: puts a message on the wire to a peer.
         report: called with the StatusText that explains a refusal.
     """
 
-    def __init__(
-        self, parameters: Mapping[str, tuple[float, int]], send: Send, report: Callable[[StatusText], None]
-    ) -> None:
-        self._parameters = {name.upper(): value for name, value in parameters.items()}
-        self._names = list(self._parameters)
+    def __init__(self, parameters: Parameters, send: Send, report: Callable[[StatusText], None]) -> None:
+        self._parameters = parameters
+        self._names = parameters.names
         self._send = send
         self._report = report
         self._next_of_list: dict[Station, int] = {}
@@ -42,7 +42,10 @@ class ParameterServer:
                 self._send_value(name, self._names.index(name), peer)
         elif kind == "PARAM_SET" and message.param_id.upper() in self._parameters:
             name = message.param_id.upper()
-            self._report(StatusText(mavlink.MAV_SEVERITY_WARNING, f"{name} is read-only"))
+            try:
+                self._parameters.set(name, message.param_value)
+            except InputError as error:
+                self._report(StatusText(mavlink.MAV_SEVERITY_WARNING, str(error)))
             self._send_value(name, _NO_INDEX, peer)
 
     def on_tick(self) -> None:
@@ -64,6 +67,6 @@ class ParameterServer:
         return self._names[index] if index < len(self._names) else ""
 
     def _send_value(self, name: str, index: int, peer: Peer) -> None:
-        value, kind = self._parameters[name]
+        value, kind = self._parameters[name], self._parameters.kind(name)
         message = mavlink.MAVLink_param_value_message(name.encode(), value, kind, len(self._names), index)
         self._send(message, peer)

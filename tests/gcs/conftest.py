@@ -37,7 +37,7 @@ def serve(frame: LocalFrame) -> Iterator[Serve]:
 
         def start(vehicle: Any, *stations: tuple[str, int]) -> StationLinks:
             links = stack.enter_context(contextlib.closing(StationLinks(0, stations)))
-            face = MavlinkFace(vehicle, frame, links.send, time.monotonic, {"SYSID_THISMAV": (float(vehicle.sysid), 4)})
+            face = MavlinkFace(vehicle, frame, links.send, time.monotonic)
             links.attach(face)
             stopped = threading.Event()
             thread = threading.Thread(target=links.run, args=(stopped,))

@@ -103,7 +103,7 @@ def test_a_mission_held_otherwise_is_reported_by_item_and_field(
 ) -> None:
     vehicle = make_vehicle(4)
     other = make_mission(12)
-    vehicle.load_mission = lambda mission: setattr(vehicle, "mission", other)
+    vehicle.load = lambda plan, items: setattr(vehicle, "mission", other)
     links = serve(vehicle)
 
     async def main() -> None:

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from missions.scenario import load_scenario
-from sitl.parameters import arduplane_parameters
 from sitl.services.codec import Codec
 from sitl.services.face import MavlinkFace
 from sitl.services.peer import Peer
@@ -61,9 +60,7 @@ messages = st.one_of(
 def test_no_sequence_of_messages_breaks_a_vehicle(sent: list[Any]) -> None:
     vehicle = Vehicle(CONFIG, TruthWriter(None))
     wall_s = [100.0]
-    face = MavlinkFace(
-        vehicle, CONFIG.frame, lambda peer, data: None, lambda: wall_s[0], arduplane_parameters(1, CONFIG.airframe)
-    )
+    face = MavlinkFace(vehicle, CONFIG.frame, lambda peer, data: None, lambda: wall_s[0])
     station = Codec(255, 190)
     for message in sent:
         face.on_bytes(station.pack(message), PEER)
@@ -78,7 +75,7 @@ def test_after_50_simulated_days_it_still_speaks() -> None:
     vehicle = Vehicle(CONFIG, TruthWriter(None))
     vehicle.tick = 50 * 24 * 3600 * 25
     heard: list[bytes] = []
-    face = MavlinkFace(vehicle, CONFIG.frame, lambda peer, data: heard.append(data), lambda: 0.0, {})
+    face = MavlinkFace(vehicle, CONFIG.frame, lambda peer, data: heard.append(data), lambda: 0.0)
     face.add_peer(PEER)
     face.on_simulated_tick(vehicle.snapshot())
     assert any(message.get_type() == "ATTITUDE" for message in Codec(255, 190).feed(b"".join(heard)))

@@ -13,7 +13,6 @@ from sitl.services.codec import Codec
 from sitl.services.face import MavlinkFace
 from sitl.services.peer import Peer
 
-PARAMETERS = {f"SIM_{index}": (float(index), 9) for index in range(45)} | {"WP_RADIUS": (90.0, 9)}
 PEER, OTHER = Peer("tcp", "127.0.0.1", 1000), Peer("udp", "127.0.0.1", 1001)
 
 
@@ -25,7 +24,7 @@ class Bench:
         self.time_s = 50.0
         self.codecs = {peer: Codec(255, 190) for peer in (PEER, OTHER)}
         self.pieces: dict[Peer, list[bytes]] = {PEER: [], OTHER: []}
-        self.face = MavlinkFace(vehicle, frame, self._send, lambda: self.time_s, PARAMETERS)
+        self.face = MavlinkFace(vehicle, frame, self._send, lambda: self.time_s)
         for peer in (PEER, OTHER):
             self.face.add_peer(peer)
 
@@ -176,9 +175,9 @@ def test_timesync_is_answered_and_ping_is_not(bench: Bench) -> None:
 def test_a_parameter_is_read_by_name_in_any_case_and_by_index(bench: Bench) -> None:
     for name, index in ((b"wp_radius", -1), (b"", 45)):
         (value,) = bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, name, index))
-        assert (value.param_id, value.param_value, value.param_index, value.param_count) == ("WP_RADIUS", 90.0, 45, 46)
+        assert (value.param_id, value.param_value, value.param_index, value.param_count) == ("WP_RADIUS", 90.0, 46, 47)
     assert bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, b"NONE", -1)) == []
-    assert bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, b"", 46)) == []
+    assert bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, b"", 47)) == []
 
 
 def test_a_list_of_parameters_comes_in_parts_and_whole(bench: Bench) -> None:
@@ -189,14 +188,19 @@ def test_a_list_of_parameters_comes_in_parts_and_whole(bench: Bench) -> None:
         values = [message for message in bench.heard() if message.get_type() == "PARAM_VALUE"]
         parts += bool(values)
         names += [value.param_id for value in values]
-    assert names == list(PARAMETERS)
+    assert names == bench.vehicle.parameters.names
     assert parts == 3
 
 
-def test_setting_a_parameter_leaves_it_and_says_so(bench: Bench) -> None:
-    text, value = bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"WP_RADIUS", 30.0, 9))
-    assert text.text == "WP_RADIUS is read-only"
-    assert (value.param_value, value.param_index) == (90.0, 65535)
+def test_a_parameter_is_set_within_its_range_or_left_with_a_word(bench: Bench) -> None:
+    (value,) = bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"WP_RADIUS", 30.0, 9))
+    assert (value.param_value, value.param_index) == (30.0, 65535)
+    text, value = bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"WP_RADIUS", 0.5, 9))
+    assert text.text == "WP_RADIUS must be 1 to 32767, got 0.5"
+    assert value.param_value == 30.0
+    text, value = bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"MIS_TOTAL", 5.0, 9))
+    assert text.text == "MIS_TOTAL is read-only"
+    assert value.param_value == 0.0
     assert bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"NONE", 30.0, 9)) == []
 
 
