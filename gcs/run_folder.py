@@ -17,7 +17,7 @@ from typing import Any
 
 from missions.elevation import write_local_raster
 from missions.errors import InputError
-from missions.formats.qgc_plan import write_plan
+from missions.formats.qgc_plan import Plan, write_plan
 from missions.formats.waypoints import write_waypoints
 from missions.scenario import Scenario, parse_scenario
 from planner.formation_plan import FormationPlan, load_plan
@@ -154,7 +154,7 @@ def export_missions(scenario: Scenario, plan: FormationPlan, file_format: str, f
     for uav in plan.uavs:
         path = folder / f"{uav.sysid}-{uav.name}.{file_format}"
         if file_format == "plan":
-            write_plan(uav.mission, path, cruise_speed_m_s=scenario.airframe.airspeed_cruise_m_s)
+            write_plan(Plan(uav.mission), path, cruise_speed_m_s=scenario.airframe.airspeed_cruise_m_s)
         else:
             write_waypoints(uav.mission, path)
         written.append(path)

@@ -45,6 +45,9 @@ class Fence:
     return_point: LatLonE7 | None = None
 
 
+NO_FENCE = Fence()
+
+
 def parse_fence(items: Sequence[MissionItem]) -> Fence:
     """The fence in a list of items; polygon vertices say in param1 how many there are of them, circles their radius.
 

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from missions.errors import InputError
-from missions.formats.qgc_plan import read_plan, write_plan
+from missions.fence import Fence, FenceCircle, FencePolygon, rally_items
+from missions.formats.qgc_plan import Plan, read_plan, write_plan
 from missions.mission import Mission, MissionItem
 
 PARAM = st.floats(width=32, allow_infinity=False)
@@ -22,13 +23,24 @@ ITEMS = st.builds(
 )
 HOMES = st.builds(lambda lat, lon, alt: MissionItem(16, lat_e7=lat, lon_e7=lon, alt_m=alt), E7, E7, FINITE)
 MISSIONS = st.builds(lambda home, items: Mission((home, *items)), HOMES, st.lists(ITEMS, max_size=20))
+PLACES = st.tuples(E7, E7)
+POLYGONS = st.builds(FencePolygon, st.booleans(), st.lists(PLACES, min_size=3, max_size=6).map(tuple))
+CIRCLES = st.builds(FenceCircle, st.booleans(), PLACES, st.floats(1.0, 1e5))
+FENCES = st.builds(
+    lambda polygons, circles, back: Fence((*polygons, *circles), back),
+    st.lists(POLYGONS, max_size=3),
+    st.lists(CIRCLES, max_size=3),
+    st.none() | PLACES,
+)
+RALLIES = st.lists(st.tuples(E7, E7, FINITE), max_size=4).map(rally_items)
+PLANS = st.builds(Plan, MISSIONS, FENCES, RALLIES)
 
 
-@given(MISSIONS)
-def test_what_is_written_reads_back_equal(tmp_path_factory: pytest.TempPathFactory, mission: Mission) -> None:
+@given(PLANS)
+def test_what_is_written_reads_back_equal(tmp_path_factory: pytest.TempPathFactory, plan: Plan) -> None:
     path = tmp_path_factory.mktemp("plan") / "any.plan"
-    write_plan(mission, path, cruise_speed_m_s=25.0)
-    assert read_plan(path) == mission
+    write_plan(plan, path, cruise_speed_m_s=25.0)
+    assert read_plan(path) == plan
 
 
 @pytest.fixture
@@ -40,7 +52,7 @@ def plan(tmp_path: Path) -> dict[str, Any]:
         MissionItem(16, 0, 0, 50, 0, math.nan, 465_100_000, 113_100_000, 1500),
     )
     path = tmp_path / "two.plan"
-    write_plan(Mission((home, *items)), path, cruise_speed_m_s=24.5)
+    write_plan(Plan(Mission((home, *items))), path, cruise_speed_m_s=24.5)
     return dict(json.loads(path.read_text()))
 
 
@@ -82,8 +94,21 @@ def _set(*keys: Any, to: Any) -> Callable[[dict[str, Any]], None]:
             _set("mission", "items", 0, to={"type": "ComplexItem", "complexItemType": "survey"}),
             "mission.items[0]: ComplexItem 'survey' cannot be read",
         ),
-        (_set("geoFence", "circles", to=[{}]), "geoFence.circles: cannot be read yet"),
-        (_set("rallyPoints", "points", to=[[1, 2, 3]]), "rallyPoints.points: cannot be read yet"),
+        (_set("geoFence", "circles", to=[{}]), "geoFence.circles[0].circle: must be an object, got null"),
+        (
+            _set("geoFence", "circles", to=[{"circle": {"center": [1, 2], "radius": -5}}]),
+            "geoFence.circles[0].circle.radius: must be > 0, got -5",
+        ),
+        (
+            _set("geoFence", "polygons", to=[{"inclusion": True, "polygon": [[1, 2], [3, 4]]}]),
+            "geoFence.polygons[0].polygon: must have at least 3 corners, got 2",
+        ),
+        (
+            _set("geoFence", "polygons", to=[{"polygon": [[1, 2], [3, 4], [5, 6]]}]),
+            "geoFence.polygons[0].inclusion: must be true or false",
+        ),
+        (_set("rallyPoints", "points", to=[[1, 2]]), "rallyPoints.points[0]: must have 3 numbers, got 2"),
+        (_set("rallyPoints", "points", to=[[1, 2, None]]), "rallyPoints.points[0][2]: must be a number, got NaN"),
     ],
 )
 def test_errors_name_the_file_and_the_place_in_it(
@@ -106,9 +131,9 @@ def test_a_file_that_is_no_json_is_refused_with_its_line(tmp_path: Path) -> None
 
 def test_a_home_that_the_format_cannot_hold_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="item 0: home"):
-        write_plan(Mission((MissionItem(22),)), tmp_path / "any.plan", cruise_speed_m_s=25.0)
+        write_plan(Plan(Mission((MissionItem(22),))), tmp_path / "any.plan", cruise_speed_m_s=25.0)
 
 
 def test_a_folder_that_cannot_be_written_to_is_an_input_error(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="choose a folder"):
-        write_plan(Mission((MissionItem(16),)), tmp_path / "missing" / "any.plan", cruise_speed_m_s=25.0)
+        write_plan(Plan(Mission((MissionItem(16),))), tmp_path / "missing" / "any.plan", cruise_speed_m_s=25.0)
