@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.transfers.errors import TransferError
-from gcs.transfers.round_trip import INITIAL_S
 from gcs.transfers.transfer import Transfer
 from missions.mission import Mission
 from sitl.services.mission_items import item_message
 from sitl.services.peer import Message
+from sitl.services.round_trip import INITIAL_S
 
 _MISSION = mavlink.MAV_MISSION_TYPE_MISSION
 

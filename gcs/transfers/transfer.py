@@ -6,8 +6,8 @@ from typing import Generic, TypeVar
 
 from gcs.station import is_for_station
 from gcs.transfers.errors import TransferError
-from gcs.transfers.round_trip import TRIES, RoundTrip
 from sitl.services.peer import Message
+from sitl.services.round_trip import TRIES, RoundTrip
 
 Result = TypeVar("Result")
 

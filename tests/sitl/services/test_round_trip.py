@@ -2,7 +2,7 @@
 
 import pytest
 
-from gcs.transfers.round_trip import INITIAL_S, LONGEST_S, SHORTEST_S, RoundTrip
+from sitl.services.round_trip import INITIAL_S, LONGEST_S, SHORTEST_S, RoundTrip
 
 
 def test_the_first_is_the_guides() -> None:
