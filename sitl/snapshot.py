@@ -1,8 +1,27 @@
 """What a vehicle's services may know of it at one tick: plain values, taken under the vehicle's lock."""
 
 from dataclasses import dataclass
+from enum import IntEnum
 
 from sitl.modes import Mode
+
+
+class LandedState(IntEnum):
+    """MAV_LANDED_STATE."""
+
+    ON_GROUND = 1
+    IN_AIR = 2
+    TAKING_OFF = 3
+    LANDING = 4
+
+
+class Breach(IntEnum):
+    """FENCE_BREACH: which fence has been crossed."""
+
+    NONE = 0
+    MINALT = 1
+    MAXALT = 2
+    BOUNDARY = 3
 
 
 @dataclass(frozen=True)
@@ -23,6 +42,17 @@ class Snapshot:
         mission_complete: the last waypoint has been reached; the vehicle loiters at the end of its mission.
         cross_track_m, altitude_error_m, along_track_m: e_n (positive left), e_h and the deviation e = s - s_ref.
         distance_to_waypoint_m: along the path to the current item.
+        landed: on the ground, in the air, or on the way from one to the other.
+        home_m: (x, y, z) of home.
+        ready: the pre-arm checks pass, or it is armed.
+        failsafe: the station is lost, or a fence breached, and it does what is set for that.
+        in_formation: it flies its schedule, and neighbours' corrections count.
+        formation_delay_s: of the neighbours' corrections.
+        fence_enabled: a fence is heeded.
+        breach_status: it is outside its fence now.
+        breach_count: how often it has gone outside.
+        breach_type: which fence it crossed last.
+        breach_time_s: simulated time at which it did.
     """
 
     time_s: float
@@ -44,3 +74,14 @@ class Snapshot:
     altitude_error_m: float
     along_track_m: float
     distance_to_waypoint_m: float
+    landed: LandedState = LandedState.ON_GROUND
+    home_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    ready: bool = True
+    failsafe: bool = False
+    in_formation: bool = False
+    formation_delay_s: float = 0.0
+    fence_enabled: bool = False
+    breach_status: bool = False
+    breach_count: int = 0
+    breach_type: Breach = Breach.NONE
+    breach_time_s: float = 0.0

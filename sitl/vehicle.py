@@ -32,7 +32,7 @@ from sitl.mission_progress import MissionProgress
 from sitl.modes import Mode
 from sitl.noise import Stream, normals
 from sitl.parameters import Parameters, arduplane_parameters
-from sitl.snapshot import Snapshot
+from sitl.snapshot import LandedState, Snapshot
 from sitl.store import Store
 from sitl.ticks import TICK_S
 from sitl.truth import TruthWriter
@@ -72,7 +72,8 @@ class Vehicle:
         self._normals = normals(config.seed, config.sysid, Stream.GUSTS, NORMALS_PER_TICK)
         self._gains = config.gains if config.arm == "full" else config.gains._replace(k1=0.0, k2=0.0)
         x, y = config.frame.from_e7(lat_e7, lon_e7)
-        self._flight = parked((x, y, self.home.alt_m - config.frame.alt_m), 0.0)
+        self._home_m = (x, y, self.home.alt_m - config.frame.alt_m)
+        self._flight = parked(self._home_m, 0.0)
         self._progress: MissionProgress | None = None
         self._loiter: Loiter | None = None
         self._errors: PathErrors | None = None
@@ -214,6 +215,11 @@ class Vehicle:
             altitude_error_m=errors.above if errors else 0.0,
             along_track_m=errors.along if errors else 0.0,
             distance_to_waypoint_m=progress.distance_to_next_m(self._flight.point.s_m) if progress else 0.0,
+            landed=LandedState.IN_AIR if flying else LandedState.ON_GROUND,
+            home_m=self._home_m,
+            in_formation=errors is not None,
+            formation_delay_s=self._config.delay_ticks * TICK_S,
+            fence_enabled=self.parameters["FENCE_ENABLE"] == 1,
         )
 
     # What the clock does, once a tick each.

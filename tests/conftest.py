@@ -14,7 +14,7 @@ from missions.plan_type import PlanType
 from sitl.events import ItemReached, StatusText
 from sitl.modes import Mode
 from sitl.parameters import INT16, REAL, Parameter, Parameters
-from sitl.snapshot import Snapshot
+from sitl.snapshot import LandedState, Snapshot
 from sitl.store import Store
 
 HOME = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=465_000_000, lon_e7=113_000_000, alt_m=1200.0)
@@ -60,6 +60,9 @@ class FakeVehicle:
             altitude_error_m=0.0,
             along_track_m=0.0,
             distance_to_waypoint_m=0.0,
+            landed=LandedState.ON_GROUND,
+            home_m=(0.0, 0.0, 1200.0),
+            formation_delay_s=0.2,
         )
 
     def change(self, **changes: object) -> None:
