@@ -22,6 +22,7 @@ from sitl.events import StatusText
 from sitl.formation.exchange import Exchange
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
+from sitl.services.signing import Signing
 from sitl.store import Store
 from sitl.ticks import TICK_S
 from sitl.truth import TruthWriter
@@ -47,6 +48,7 @@ class EndpointConfig:
         memory: the folder of what it remembers over restarts; None forgets.
         held: whether its clock starts held.
         speed: factor of its clock; infinite for as fast as it goes.
+        signing_key: its MAVLink key of 32 bytes until it is given another; None for none.
     """
 
     vehicle: VehicleConfig
@@ -58,6 +60,7 @@ class EndpointConfig:
     memory: Path | None
     held: bool
     speed: float = math.inf
+    signing_key: bytes | None = None
 
 
 @dataclass(frozen=True)
@@ -110,13 +113,16 @@ def _serve(config: EndpointConfig, reports: Connection, ending: Ending) -> Ended
     """Open everything, fly, close everything."""
     sysid = config.vehicle.sysid
     truth = TruthWriter(config.truth)
-    vehicle = Vehicle(config.vehicle, truth, Store(config.memory))
+    store = Store(config.memory)
+    vehicle = Vehicle(config.vehicle, truth, store)
     with (
         contextlib.closing(truth),
         contextlib.closing(StationLinks(config.tcp_port, config.stations)) as links,
         open_session(config.peer) as session,
     ):
-        face = MavlinkFace(vehicle, config.vehicle.frame, links.send, time.monotonic)
+        face = MavlinkFace(
+            vehicle, config.vehicle.frame, links.send, time.monotonic, Signing(store, config.signing_key)
+        )
         links.attach(face)
         exchange = Exchange(session, config.swarm, sysid, config.vehicle.weights)
         clock = Clock(held=config.held, speed=config.speed, on_stop=exchange.stop)

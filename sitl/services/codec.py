@@ -1,12 +1,15 @@
 """MAVLink frames to messages and back, for one peer, whatever bytes come."""
 
+from fastcrc.crc16 import mcrf4xx
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from sitl.services.peer import Message
+from sitl.services.received import KINDS, MAGIC_V1, MAGIC_V2, SIGNATURE_BYTES, SIGNED, Received
+from sitl.services.signing import Signing
 
-_MAGIC_V1, _MAGIC_V2 = 0xFE, 0xFD
-_SIGNED = 0x01
-_SIGNATURE_LENGTH = 13
+_SHORTEST_V1, _SHORTEST_V2 = 8, 12
+"""Header and checksum."""
+_BY_WIRE_ID = {message_id.to_bytes(3, "little"): kind for message_id, kind in KINDS.items()}
 
 
 class Codec:
@@ -17,67 +20,79 @@ class Codec:
 
     Args:
         sysid, compid: the sender's ids put on packed frames.
+        link_id: the link's number in signatures, 0 to 255.
 
     Attributes:
         skipped_bytes: bytes received so far that belonged to no frame of the dialect.
+        damaged: how often something else than a frame stood where one was to start.
+        unknown: how often what stood there may have been a frame of another dialect.
     """
 
-    def __init__(self, sysid: int, compid: int) -> None:
+    def __init__(self, sysid: int, compid: int, link_id: int = 0) -> None:
         self._mavlink = mavlink.MAVLink(None, srcSystem=sysid, srcComponent=compid)
-        self._buffer = bytearray()
+        self._link_id = link_id
+        self._rest = b""
+        self._in_step = True
         self.skipped_bytes = 0
+        self.damaged = 0
+        self.unknown = 0
 
-    def pack(self, message: Message) -> bytes:
-        """One MAVLink 2 frame, with this peer's next sequence number."""
+    def pack(self, message: Message, signing: Signing | None = None) -> bytes:
+        """One MAVLink 2 frame, with this peer's next sequence number, signed where signing has a key."""
         frame = bytes(message.pack(self._mavlink))
         self._mavlink.seq = (self._mavlink.seq + 1) % 256
-        return frame
+        return frame if signing is None else signing.sign(frame, self._link_id)
 
     def feed(self, data: bytes) -> list[Message]:
-        """The messages that `data` completes, in order."""
-        buffer = self._buffer
-        buffer += data
-        messages = []
-        start = 0
-        while True:
-            frame_start = _find_magic(buffer, start)
-            self.skipped_bytes += frame_start - start
-            start = frame_start
-            length = _frame_length(buffer, start)
-            if length is None or len(buffer) - start < length:
+        """The messages that `data` completes, in order; their signatures are not looked at."""
+        if self._rest:
+            data = self._rest + data
+        messages: list[Message] = []
+        start, size = 0, len(data)
+        while start < size:
+            magic = data[start]
+            if magic == MAGIC_V2 and size - start >= 3:
+                flags = data[start + 2]
+                end = start + _SHORTEST_V2 + data[start + 1]
+                checksum_at = end - 2
+                if flags:
+                    end += SIGNATURE_BYTES
+                    if flags != SIGNED:
+                        start = self._skip(data, start)
+                        continue
+                if end > size:
+                    break
+                kind = _BY_WIRE_ID.get(data[start + 7 : start + 10])
+            elif magic == MAGIC_V1 and size - start >= 3:
+                end = start + _SHORTEST_V1 + data[start + 1]
+                checksum_at = end - 2
+                if end > size:
+                    break
+                kind = KINDS.get(data[start + 5])
+            elif magic in (MAGIC_V1, MAGIC_V2):
                 break
-            message = self._decode(buffer[start : start + length])
-            if message is None:
-                self.skipped_bytes += 1
-                start += 1
             else:
-                messages.append(message)
-                start += length
-        del buffer[:start]
+                start = self._skip(data, start)
+                continue
+            if kind is None:
+                self.unknown += self._in_step
+                start = self._skip(data, start, counted=True)
+            elif mcrf4xx(data[start + 1 : checksum_at] + kind.checksum_extra) != (
+                data[checksum_at] | data[checksum_at + 1] << 8
+            ):
+                start = self._skip(data, start)
+            else:
+                messages.append(Received(kind, data[start:end]))
+                self._in_step = True
+                start = end
+        self._rest = data[start:]
         return messages
 
-    def _decode(self, frame: bytearray) -> Message | None:
-        if frame[0] == _MAGIC_V2 and frame[2] & ~_SIGNED:
-            return None
-        try:
-            message = self._mavlink.decode(frame)
-        except mavlink.MAVError:
-            return None
-        return None if isinstance(message, mavlink.MAVLink_unknown) else message
-
-
-def _find_magic(buffer: bytearray, start: int) -> int:
-    if start < len(buffer) and buffer[start] in (_MAGIC_V2, _MAGIC_V1):
-        return start
-    found = [at for at in (buffer.find(_MAGIC_V2, start), buffer.find(_MAGIC_V1, start)) if at >= 0]
-    return min(found, default=len(buffer))
-
-
-def _frame_length(buffer: bytearray, start: int) -> int | None:
-    """Length of the frame that would start at `start`; None while its header is not all in."""
-    if len(buffer) - start < 3:
-        return None
-    payload = buffer[start + 1]
-    if buffer[start] == _MAGIC_V1:
-        return 6 + payload + 2
-    return 10 + payload + 2 + (_SIGNATURE_LENGTH if buffer[start + 2] & _SIGNED else 0)
+    def _skip(self, data: bytes, start: int, *, counted: bool = False) -> int:
+        """Where the next frame may start, after what starts here has turned out to be none."""
+        self.damaged += self._in_step and not counted
+        self._in_step = False
+        found = [at for at in (data.find(MAGIC_V2, start + 1), data.find(MAGIC_V1, start + 1)) if at >= 0]
+        next_start = min(found, default=len(data))
+        self.skipped_bytes += next_start - start
+        return next_start

@@ -12,6 +12,8 @@ from sitl.services.heartbeat import heartbeat
 from sitl.services.mission_server import MissionServer
 from sitl.services.parameters import ParameterServer
 from sitl.services.peer import Message, Peer
+from sitl.services.signing import Signing, Verdict
+from sitl.services.signing_server import SigningServer
 from sitl.services.status_text import status_text_messages
 from sitl.services.stream_messages import View
 from sitl.services.telemetry import Telemetry
@@ -34,6 +36,10 @@ class MavlinkFace:
         frame: the local frame of its position.
         send: puts bytes on the wire to a peer; must not block.
         now: wall time in seconds; only differences matter.
+        signing: its key, if it has one or is to keep one that it is given.
+
+    Attributes:
+        rejected: frames without effect, because they were unsigned, wrongly signed or old.
     """
 
     def __init__(
@@ -42,6 +48,7 @@ class MavlinkFace:
         frame: LocalFrame,
         send: Callable[[Peer, bytes], None],
         now: Callable[[], float],
+        signing: Signing | None = None,
     ) -> None:
         self._vehicle = vehicle
         self._frame = frame
@@ -51,6 +58,10 @@ class MavlinkFace:
         self._outbox: dict[Peer, bytearray] = {}
         self._heartbeat_at_s = now()
         self._text_id = 0
+        self.rejected = 0
+        self._signing = signing or Signing()
+        self._links_seen = 0
+        self._keys = SigningServer(vehicle, self._signing, self._report)
         self._telemetry = Telemetry()
         self._missions = MissionServer(vehicle, self._reply, self._report, now)
         self._parameters = ParameterServer(vehicle.parameters, self._reply, self._report)
@@ -64,7 +75,9 @@ class MavlinkFace:
     def add_peer(self, peer: Peer) -> None:
         """Telemetry goes to `peer` from now on."""
         with self._vehicle.lock:
-            self._codecs.setdefault(peer, Codec(self._vehicle.sysid, _AUTOPILOT))
+            if peer not in self._codecs:
+                self._codecs[peer] = Codec(self._vehicle.sysid, _AUTOPILOT, link_id=self._links_seen % 256)
+                self._links_seen += 1
 
     def remove_peer(self, peer: Peer) -> None:
         """`peer` is gone."""
@@ -78,7 +91,10 @@ class MavlinkFace:
         with self._vehicle.lock:
             self.add_peer(peer)
             for message in self._codecs[peer].feed(data):
-                self._on_message(message, peer)
+                if self._signing.judge(message.get_msgbuf()) is Verdict.GOOD:
+                    self._on_message(message, peer)
+                else:
+                    self.rejected += 1
             self._flush()
 
     def on_tick(self) -> None:
@@ -89,6 +105,7 @@ class MavlinkFace:
                 self._broadcast(heartbeat(self._vehicle.snapshot()))
             self._missions.on_tick()
             self._parameters.on_tick()
+            self._keys.on_tick()
             self._tell_events()
             self._flush()
 
@@ -114,6 +131,7 @@ class MavlinkFace:
         self._missions.on_message(message, peer)
         self._parameters.on_message(message, peer)
         self._commands.on_message(message, peer)
+        self._keys.on_message(message)
 
     def _answer_timesync(self, message: Message, peer: Peer) -> None:
         if message.tc1 == 0:
@@ -143,7 +161,7 @@ class MavlinkFace:
             self._reply(message, peer)
 
     def _reply(self, message: Message, peer: Peer) -> None:
-        self._outbox.setdefault(peer, bytearray()).extend(self._codecs[peer].pack(message))
+        self._outbox.setdefault(peer, bytearray()).extend(self._codecs[peer].pack(message, self._signing))
 
     def _flush(self) -> None:
         outbox, self._outbox = self._outbox, {}

@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from sitl.services.codec import Codec
+from sitl.services.signing import Signing
 
 
 def heartbeat() -> mavlink.MAVLink_message:
@@ -55,3 +56,28 @@ def test_sequence_numbers_wrap_at_256() -> None:
 def test_frames_of_version_1_are_read() -> None:
     frame = heartbeat().pack(mavlink.MAVLink(None, 3, 1), force_mavlink1=True)
     assert Codec(255, 190).feed(frame)[0].get_srcSystem() == 3
+
+
+def test_signed_frames_are_read_as_others_are() -> None:
+    codec, reader = Codec(7, 1), Codec(255, 190)
+    data = b"".join(codec.pack(heartbeat(), Signing(key=bytes(range(32)))) for _ in range(3)) + codec.pack(heartbeat())
+    assert [message.get_seq() for message in reader.feed(data)] == [0, 1, 2, 3]
+
+
+def test_what_is_not_read_is_counted_once_a_gap() -> None:
+    codec, reader = Codec(7, 1), Codec(255, 190)
+    damaged, foreign = bytearray(codec.pack(heartbeat())), bytearray(codec.pack(heartbeat()))
+    damaged[12] ^= 0xFD ^ damaged[12]  # looks like one more start
+    foreign[7:10] = (0x00, 0xFF, 0xFF)
+    for garbage in (damaged, foreign, foreign):
+        reader.feed(bytes(garbage) + codec.pack(heartbeat()))
+    assert (reader.damaged, reader.unknown) == (1, 2)
+    assert reader.skipped_bytes == len(damaged) + 2 * len(foreign)
+
+
+@given(st.lists(st.binary(max_size=300), max_size=30))
+def test_its_memory_is_bounded_by_one_frame(pieces: list[bytes]) -> None:
+    reader = Codec(255, 190)
+    for piece in pieces:
+        reader.feed(piece)
+        assert len(reader._rest) < 12 + 255 + 13
