@@ -5,11 +5,12 @@ from pathlib import Path
 
 from missions.errors import InputError
 
-_STAMP = struct.Struct(">Q")
+STAMP = struct.Struct(">Q")
+"""Microseconds, Unix time."""
 
 
 class TelemetryLog:
-    """One vehicle's `.tlog`, both directions, complete on disk after every frame.
+    """One vehicle's `.tlog`, both directions, complete on disk after every `flush`, and readable at any time.
 
     Args:
         path: file to write.
@@ -23,16 +24,23 @@ class TelemetryLog:
             raise InputError(f"{path}: {error.strerror}; choose a folder that can be written to") from error
         self._path = path
         self._start_us = round(start_s * 1e6)
+        self._waiting = bytearray()
         self._failure: OSError | None = None
 
     def write(self, simulated_ms: int, frame: bytes) -> None:
         """Add one frame, stamped with the start plus the simulated time; nothing once closed, or after a failure."""
-        if self._file.closed or self._failure is not None:
-            return
-        try:
-            self._file.write(_STAMP.pack(self._start_us + simulated_ms * 1000) + frame)
-        except OSError as error:
-            self._failure = error
+        self._waiting += STAMP.pack(self._start_us + simulated_ms * 1000)
+        self._waiting += frame
+
+    def flush(self) -> None:
+        """Bring what was written to the disk; nothing once closed, or after a failure."""
+        if self._waiting and self._failure is None and not self._file.closed:
+            try:
+                while self._waiting:
+                    del self._waiting[: self._file.write(self._waiting)]
+            except OSError as error:
+                self._failure = error
+        self._waiting.clear()
 
     def check(self) -> None:
         """Raise InputError when the log is not complete, because a frame could not be written."""
@@ -40,5 +48,6 @@ class TelemetryLog:
             raise InputError(f"{self._path}: {self._failure.strerror}; the log ends early, make room and fly again")
 
     def close(self) -> None:
-        """Close the file."""
+        """Close the file, complete."""
+        self.flush()
         self._file.close()

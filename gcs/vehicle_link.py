@@ -9,8 +9,11 @@ from typing import TypeAlias
 from gcs.status_lines import StatusLines
 from gcs.tlog import TelemetryLog
 from sitl.services.peer import Message, Peer
+from sitl.services.signing import Signing
 
 OnMessage: TypeAlias = Callable[[Message], None]
+SILENCE_S = 3.0
+"""A vehicle that has not been heard for so long is not there: three heartbeats are lost."""
 
 
 class VehicleLink:
@@ -20,12 +23,16 @@ class VehicleLink:
         sysid, compid: its MAVLink ids.
         peer: where it is.
         send_message: packs and sends a message to it, and returns the frame.
-        log: where its traffic is recorded.
+        log: where its traffic is recorded; the keys that it is given are not.
+        signing: see below; None for no key.
 
     Attributes:
         latest: the newest message of each type.
+        signing: the key that it shares with the station, if any.
+        found_at_s: when it was first heard, `time.monotonic` seconds.
         heard_at_s: when it was last heard, `time.monotonic` seconds.
         simulated_ms: its newest time_boot_ms.
+        frames: how many have come.
         lost_frames: frames missing from its sequence numbers.
         texts: its STATUSTEXT lines, oldest first.
         transfer_lock: held by the one transfer there may be at a time.
@@ -38,19 +45,23 @@ class VehicleLink:
         peer: Peer,
         send_message: Callable[[Message], bytes],
         log: TelemetryLog | None = None,
+        signing: Signing | None = None,
     ) -> None:
         self.sysid = sysid
         self.compid = compid
         self.peer = peer
         self.latest: dict[str, Message] = {}
-        self.heard_at_s = time.monotonic()
+        self.signing = signing or Signing()
+        self.found_at_s = self.heard_at_s = time.monotonic()
         self.simulated_ms = 0
+        self.frames = 0
         self.lost_frames = 0
         self.texts: list[str] = []
         self.transfer_lock = asyncio.Lock()
         self._send_message = send_message
         self._log = log
         self._next_seq: int | None = None
+        self._first_ms: int | None = None
         self._listeners: list[OnMessage] = []
         self._status_lines = StatusLines()
 
@@ -60,7 +71,7 @@ class VehicleLink:
     def send(self, message: Message) -> None:
         """Send one message to the vehicle."""
         frame = self._send_message(message)
-        if self._log is not None:
+        if self._log is not None and message.get_type() != "SETUP_SIGNING":
             self._log.write(self.simulated_ms, frame)
 
     @contextmanager
@@ -78,19 +89,43 @@ class VehicleLink:
         self._send_message = send_message
         self._next_seq = None
 
+    @property
+    def silent_s(self) -> float:
+        """How long nothing has been heard of it."""
+        return time.monotonic() - self.heard_at_s
+
+    @property
+    def heard(self) -> bool:
+        """Whether it is there: a vehicle sends a heartbeat each second."""
+        return self.silent_s < SILENCE_S
+
+    @property
+    def pace(self) -> float:
+        """Its simulated seconds a second, on the average since it was found."""
+        passed_s = self.heard_at_s - self.found_at_s
+        if self._first_ms is None or passed_s <= 0.0:
+            return 1.0
+        return (self.simulated_ms - self._first_ms) / 1000.0 / passed_s
+
     def on_message(self, message: Message) -> None:
         """Take one message from the vehicle."""
         self.heard_at_s = time.monotonic()
+        self.frames += 1
         kind = message.get_type()
-        if kind == "STATUSTEXT":
-            self.texts.extend(self._status_lines.feed(message))
-        self.simulated_ms = max(self.simulated_ms, getattr(message, "time_boot_ms", 0))
+        time_ms = message.time_boot_ms_or(0)
+        if time_ms > self.simulated_ms:
+            self.simulated_ms = time_ms
+            if self._first_ms is None:
+                self._first_ms = time_ms
         self._count_lost(message.get_seq())
         self.latest[kind] = message
         if self._log is not None:
-            self._log.write(self.simulated_ms, bytes(message.get_msgbuf()))
-        for listener in list(self._listeners):
-            listener(message)
+            self._log.write(self.simulated_ms, message.get_msgbuf())
+        if kind == "STATUSTEXT":
+            self.texts.extend(self._status_lines.feed(message))
+        if self._listeners:
+            for listener in list(self._listeners):
+                listener(message)
 
     def _count_lost(self, seq: int) -> None:
         if self._next_seq is not None:

@@ -1,38 +1,49 @@
-"""A UDP port on which many vehicles report, as on a ground station's 14550."""
+"""A UDP port: one on which many vehicles report, as on a ground station's 14550, or one towards a single address."""
 
 import asyncio
+import contextlib
 import socket
-from typing import cast
 
-from gcs.links.link import OnBytes, ignore_bytes
+from gcs.links.link import OnBytes, OnPeer, ignore_bytes, ignore_peer
 from missions.errors import InputError
 from sitl.services.peer import Peer
 
 _RECEIVE_BUFFER_BYTES = 8 * 1024 * 1024
+_LARGEST_DATAGRAM = 65536
+_PER_TURN = 256
+"""Datagrams taken at most before others get their turn of the loop."""
 
 
-class UdpLink(asyncio.DatagramProtocol):
-    """One port for all vehicles; each is answered at the address it came from.
+class UdpLink:
+    """A port, and whoever is at the other end of it.
+
+    Args:
+        sock: bound, non-blocking; connected when there is a target.
+        target: the only peer, sent to from the start; None for whoever sends to the port.
 
     Attributes:
         on_bytes: called with each datagram.
+        on_lost, on_back: never called, for there is no connection.
+        greeted: the target, if there is one.
         port: the local port.
     """
 
     on_bytes: OnBytes
+    on_lost: OnPeer
+    on_back: OnPeer
 
-    def __init__(self, port: int) -> None:
+    def __init__(self, sock: socket.socket, target: Peer | None = None) -> None:
         self.on_bytes = ignore_bytes
-        self.port = port
-        self._transport: asyncio.DatagramTransport | None = None
-        self._closed = asyncio.get_running_loop().create_future()
+        self.on_lost = self.on_back = ignore_peer
+        self.greeted: tuple[Peer, ...] = () if target is None else (target,)
+        self.port = int(sock.getsockname()[1])
+        self._socket = sock
+        asyncio.get_running_loop().add_reader(sock, self._receive)
 
     @classmethod
     async def open(cls, port: int = 0, host: str = "127.0.0.1") -> "UdpLink":
-        """Bind to a port, 0 for a free one; raises InputError when it is taken."""
-        sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        sock.setblocking(False)
-        sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _RECEIVE_BUFFER_BYTES)
+        """Listen on a port, 0 for a free one; raises InputError when it cannot be had."""
+        sock = _socket()
         try:
             sock.bind((host, port))
         except OSError as error:
@@ -40,32 +51,47 @@ class UdpLink(asyncio.DatagramProtocol):
             reason = error.strerror or str(error)
             text = f"UDP port {port} on {host}: {reason}; stop what uses it or choose another port"
             raise InputError(text) from error
-        bound = int(sock.getsockname()[1])
-        _, link = await asyncio.get_running_loop().create_datagram_endpoint(lambda: cls(bound), sock=sock)
-        return link
+        return cls(sock)
+
+    @classmethod
+    async def connect(cls, host: str, port: int) -> "UdpLink":
+        """Send to an address from a free port and hear nobody else; raises InputError when there is no such host."""
+        sock = _socket()
+        try:
+            found = await asyncio.get_running_loop().getaddrinfo(host, port, family=socket.AF_INET)
+            sock.connect(found[0][4])
+        except OSError as error:
+            sock.close()
+            raise InputError(f"udp {host}:{port}: {error.strerror or error}; check the address") from error
+        return cls(sock, Peer("udp", *sock.getpeername()))
 
     def send(self, data: bytes, peer: Peer) -> None:
         """One datagram to the peer."""
-        if self._transport is not None and not self._transport.is_closing():
-            self._transport.sendto(data, (peer.host, peer.port))
+        with contextlib.suppress(OSError):
+            if self.greeted:
+                self._socket.send(data)
+            else:
+                self._socket.sendto(data, (peer.host, peer.port))
 
     async def close(self) -> None:
         """Close the port."""
-        if self._transport is not None:
-            self._transport.close()
-            await self._closed
+        asyncio.get_running_loop().remove_reader(self._socket)
+        self._socket.close()
 
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """asyncio's: the port is open."""
-        self._transport = cast(asyncio.DatagramTransport, transport)  # not all of asyncio's are instances of it
+    def _receive(self) -> None:
+        receive, on_bytes = self._socket.recvfrom, self.on_bytes
+        for _ in range(_PER_TURN):
+            try:
+                data, (host, port) = receive(_LARGEST_DATAGRAM)
+            except BlockingIOError:
+                return
+            except OSError:  # an earlier datagram was refused by its receiver; telemetry is lossy anyway
+                continue
+            on_bytes(data, Peer("udp", host, port))
 
-    def datagram_received(self, data: bytes, addr: tuple[str, int]) -> None:
-        """asyncio's: a datagram is in."""
-        self.on_bytes(data, Peer("udp", *addr))
 
-    def error_received(self, exc: Exception) -> None:
-        """asyncio's: a datagram was refused by its receiver; telemetry is lossy anyway."""
-
-    def connection_lost(self, exc: Exception | None) -> None:
-        """asyncio's: the port is closed."""
-        self._closed.set_result(None)
+def _socket() -> socket.socket:
+    sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    sock.setblocking(False)
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _RECEIVE_BUFFER_BYTES)
+    return sock

@@ -16,6 +16,7 @@ def test_pymavlink_reads_it_while_it_is_being_written(tmp_path: Path) -> None:
     log, codec = TelemetryLog(path, 1_700_000_000.0), Codec(3, 1)
     for time_ms in (0, 40, 1_200_000):
         log.write(time_ms, codec.pack(mavlink.MAVLink_system_time_message(0, time_ms)))
+    log.flush()
     reader = mavutil.mavlink_connection(str(path))
     messages = [reader.recv_match() for _ in range(3)]
     assert [message.time_boot_ms for message in messages] == [0, 40, 1_200_000]
@@ -43,6 +44,7 @@ def test_a_full_disk_is_told_not_swallowed() -> None:
     log = TelemetryLog(Path("/dev/full"), 0.0)
     log.check()
     log.write(0, b"frame")
+    log.flush()
     with pytest.raises(InputError, match="No space left on device; the log ends early"):
         log.check()
     log.close()
