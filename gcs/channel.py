@@ -6,7 +6,7 @@ from gcs import station
 from gcs.links.link import Link
 from sitl.services.codec import Codec
 from sitl.services.peer import Message, Peer
-from sitl.services.signing import Signing
+from sitl.services.signing import Signer
 
 
 class Channel:
@@ -31,7 +31,7 @@ class Channel:
         self.heard_at_s = time.monotonic()
         self.open = True
 
-    def send(self, message: Message, signing: Signing) -> bytes:
+    def send(self, message: Message, signing: Signer) -> bytes:
         """Send one message; returns the frame."""
         frame = self.codec.pack(message, signing)
         self.link.send(frame, self.peer)

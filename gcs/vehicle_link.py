@@ -9,7 +9,7 @@ from typing import TypeAlias
 from gcs.status_lines import StatusLines
 from gcs.tlog import TelemetryLog
 from sitl.services.peer import Message, Peer
-from sitl.services.signing import Signing
+from sitl.services.signing import Signer, Signing
 
 OnMessage: TypeAlias = Callable[[Message], None]
 SILENCE_S = 3.0
@@ -45,13 +45,13 @@ class VehicleLink:
         peer: Peer,
         send_message: Callable[[Message], bytes],
         log: TelemetryLog | None = None,
-        signing: Signing | None = None,
+        signing: Signer | None = None,
     ) -> None:
         self.sysid = sysid
         self.compid = compid
         self.peer = peer
         self.latest: dict[str, Message] = {}
-        self.signing = signing or Signing()
+        self.signing: Signer = signing or Signing()
         self.found_at_s = self.heard_at_s = time.monotonic()
         self.simulated_ms = 0
         self.frames = 0

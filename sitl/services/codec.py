@@ -5,7 +5,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from sitl.services.peer import Message
 from sitl.services.received import KINDS, MAGIC_V1, MAGIC_V2, SIGNATURE_BYTES, SIGNED, Received
-from sitl.services.signing import Signing
+from sitl.services.signing import Signer
 
 _SHORTEST_V1, _SHORTEST_V2 = 8, 12
 """Header and checksum."""
@@ -37,7 +37,7 @@ class Codec:
         self.damaged = 0
         self.unknown = 0
 
-    def pack(self, message: Message, signing: Signing | None = None) -> bytes:
+    def pack(self, message: Message, signing: Signer | None = None) -> bytes:
         """One MAVLink 2 frame, with this peer's next sequence number, signed where signing has a key."""
         frame = bytes(message.pack(self._mavlink))
         self._mavlink.seq = (self._mavlink.seq + 1) % 256

@@ -10,6 +10,7 @@ import hmac
 import time
 from collections.abc import Callable
 from enum import Enum
+from typing import Protocol
 
 from fastcrc.crc16 import mcrf4xx
 
@@ -41,6 +42,16 @@ class Verdict(Enum):
     UNSIGNED = "unsigned"
     WRONG = "wrongly signed"
     OLD = "signed too long ago"
+
+
+class Signer(Protocol):
+    """What links ask."""
+
+    def sign(self, frame: bytes, link_id: int) -> bytes:
+        """A frame to be sent, signed if need be."""
+
+    def judge(self, frame: bytes) -> Verdict:
+        """Whether a frame that came may have an effect."""
 
 
 class Signing:
@@ -135,6 +146,11 @@ class Signing:
         self._newest_heard = max(self._newest_heard, timestamp)
         return Verdict.GOOD
 
+    @staticmethod
+    def timestamp_at(time_s: float) -> int:
+        """The timestamp of a Unix time."""
+        return max(0, round((time_s - EPOCH_S) * TICKS_PER_S))
+
     def _start(self, key: bytes | None, timestamp: int) -> None:
         self._key = key
         self._last_sent = timestamp
@@ -145,7 +161,7 @@ class Signing:
         self._store.write(_PIECE, (key or NO_KEY) + timestamp.to_bytes(8, "big"))
 
     def _clock(self) -> int:
-        return max(0, round((self._now() - EPOCH_S) * TICKS_PER_S))
+        return self.timestamp_at(self._now())
 
 
 def signed(frame: bytes, key: bytes, link_id: int, timestamp: int) -> bytes:

@@ -22,6 +22,7 @@ from missions.scenario import Scenario, VehicleModel, load_scenario, read_scenar
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
+from sitl.services.signing import Signing
 from sitl.ticks import TICK_S
 
 Serve = Callable[..., StationLinks]
@@ -35,9 +36,9 @@ def serve(frame: LocalFrame) -> Iterator[Serve]:
     """Serves a fake vehicle's face in a thread of its own, to stations over UDP and whoever comes over TCP."""
     with contextlib.ExitStack() as stack:
 
-        def start(vehicle: Any, *stations: tuple[str, int]) -> StationLinks:
+        def start(vehicle: Any, *stations: tuple[str, int], signing: Signing | None = None) -> StationLinks:
             links = stack.enter_context(contextlib.closing(StationLinks(0, stations)))
-            face = MavlinkFace(vehicle, frame, links.send, time.monotonic)
+            face = MavlinkFace(vehicle, frame, links.send, time.monotonic, signing)
             links.attach(face)
             stopped = threading.Event()
             thread = threading.Thread(target=links.run, args=(stopped,))
