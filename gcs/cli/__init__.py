@@ -7,6 +7,7 @@ from gcs.cli.demo import demo
 from gcs.cli.export import export
 from gcs.cli.fly import fly
 from gcs.cli.plan import plan
+from gcs.cli.replay import replay
 from gcs.cli.reproduce import reproduce
 from gcs.cli.sim import sim
 
@@ -18,5 +19,5 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (demo, plan, sim, fly, export, bench, reproduce):
+for command in (demo, plan, sim, fly, export, replay, bench, reproduce):
     app.command()(command)

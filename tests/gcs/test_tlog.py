@@ -1,5 +1,8 @@
 """What is true of telemetry logs."""
 
+import subprocess
+import sys
+import sysconfig
 from pathlib import Path
 
 import pytest
@@ -9,6 +12,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from gcs.tlog import TelemetryLog
 from missions.errors import InputError
 from sitl.services.codec import Codec
+from sitl.services.signing import Signing
 
 
 def test_pymavlink_reads_it_while_it_is_being_written(tmp_path: Path) -> None:
@@ -24,6 +28,19 @@ def test_pymavlink_reads_it_while_it_is_being_written(tmp_path: Path) -> None:
     assert stamps_s == pytest.approx([0.0, 0.04, 1200.0], abs=1e-5)
     assert reader.recv_match() is None
     reader.close()
+    log.close()
+
+
+def test_mavlogdump_reads_it_while_it_is_being_written(tmp_path: Path) -> None:
+    log, codec = TelemetryLog(tmp_path / "3.tlog", 1_700_000_000.0), Codec(3, 1)
+    for number in range(20):
+        message = mavlink.MAVLink_statustext_message(6, b"line %d" % number)
+        log.write(40 * number, codec.pack(message, Signing(key=bytes(range(32))) if number % 2 else None))
+    log.flush()
+    tool = Path(sysconfig.get_path("scripts")) / "mavlogdump.py"
+    command = [sys.executable, str(tool), "--types", "STATUSTEXT", str(tmp_path / "3.tlog")]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
+    assert [line.split("text : ")[1].split(",")[0] for line in printed.splitlines()] == [f"line {n}" for n in range(20)]
     log.close()
 
 
