@@ -5,18 +5,12 @@ from collections.abc import Callable
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from sitl.services.peer import Message
-from sitl.services.stream_messages import BUILDERS, View
+from sitl.services.stream_messages.streams import OFF_US, STREAMS
+from sitl.services.stream_messages.view import View
 from sitl.ticks import TICK_S
 
 TICK_US = round(TICK_S * 1e6)
 """The shortest interval of a stream (25 Hz)."""
-
-OFF_US = -1
-
-DEFAULT_INTERVALS_US = dict.fromkeys(BUILDERS, 1_000_000) | {
-    mavlink.MAVLINK_MSG_ID_HOME_POSITION: 10_000_000,
-    mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: OFF_US,
-}
 
 _NEVER_US = 2**63
 _LONGEST_US = 2**31 - 1
@@ -31,7 +25,7 @@ class Telemetry:
     """
 
     def __init__(self) -> None:
-        self._intervals_us = dict(DEFAULT_INTERVALS_US)
+        self._intervals_us = {message_id: stream.interval_us for message_id, stream in STREAMS.items()}
         self._due_us = {
             message_id: _NEVER_US if interval == OFF_US else 0 for message_id, interval in self._intervals_us.items()
         }
@@ -59,13 +53,18 @@ class Telemetry:
             self._due_us[message_id] = (now_us // interval_us + 1) * interval_us
         self._next_us = min(self._due_us.values())
         state = view()
-        return [BUILDERS[message_id](state) for message_id in due]
+        messages: list[Message] = []
+        for message_id in due:
+            stream = STREAMS[message_id]
+            if stream.when is None or stream.when(state):
+                messages += stream.messages(state)
+        return messages
 
-    def interval_us(self, message_id: int) -> int | None:
+    def interval_us(self, message_id: float) -> int | None:
         """Interval of a stream, -1 when it is off, None when there is no such stream."""
-        return self._intervals_us.get(message_id)
+        return self._intervals_us.get(message_id)  # type: ignore[call-overload, no-any-return]
 
-    def set_interval_us(self, message_id: int, interval_us: float) -> bool:
+    def set_interval_us(self, message_id: float, interval_us: float) -> bool:
         """Set a stream's interval as MAV_CMD_SET_MESSAGE_INTERVAL does: 0 the default, -1 off.
 
         Returns:
@@ -73,16 +72,30 @@ class Telemetry:
         """
         if message_id not in self._intervals_us:
             return False
+        number = int(message_id)
         if interval_us == 0:
-            interval_us = DEFAULT_INTERVALS_US[message_id]
+            interval_us = STREAMS[number].interval_us
         if not (interval_us == OFF_US or TICK_US <= interval_us <= _LONGEST_US):
             return False
         interval = int(interval_us)
-        self._intervals_us[message_id] = interval
-        next_us = _NEVER_US if interval == OFF_US else (self._last_us // interval + 1) * interval
-        self._due_us[message_id] = next_us
+        self._intervals_us[number] = interval
+        self._due_us[number] = _NEVER_US if interval == OFF_US else (self._last_us // interval + 1) * interval
         self._next_us = min(self._due_us.values())
         return True
+
+    def request_group(self, group: int, rate_hz: int, *, start: bool) -> None:
+        """Set the intervals of a group of streams as the old REQUEST_DATA_STREAM does.
+
+        Args:
+            group: MAV_DATA_STREAM; what is in none is left alone.
+            rate_hz: messages a second, at most one a tick; 0 for none.
+            start: whether there shall be any.
+        """
+        interval_us = max(TICK_US, round(1e6 / rate_hz)) if start and rate_hz else OFF_US
+        for message_id, stream in STREAMS.items():
+            asked = stream.group and group in (stream.group, mavlink.MAV_DATA_STREAM_ALL)
+            if asked and self._intervals_us[message_id] != interval_us:
+                self.set_interval_us(message_id, interval_us)
 
 
 def _tick_us(time_s: float) -> int:

@@ -2,12 +2,13 @@
 
 import math
 from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from sitl.services.stream_messages import View
+from sitl.services.stream_messages.view import View
 from sitl.services.telemetry import Telemetry
 
 ATTITUDE = mavlink.MAVLINK_MSG_ID_ATTITUDE
@@ -15,7 +16,8 @@ ATTITUDE = mavlink.MAVLINK_MSG_ID_ATTITUDE
 
 @pytest.fixture
 def view(make_vehicle: Any, make_mission: Any, frame: Any) -> View:
-    return View(make_vehicle(1).snapshot(), frame, make_mission(3), 1)
+    vehicle = make_vehicle(1)
+    return View(vehicle.snapshot(), frame, vehicle.home, make_mission(3), (1, 0, 0), 0.0)
 
 
 def fly(telemetry: Telemetry, view: View, first_tick: int, last_tick: int) -> Counter[str]:
@@ -60,9 +62,35 @@ def test_intervals_that_cannot_be_had_are_refused(interval_us: float) -> None:
     assert not Telemetry().set_interval_us(ATTITUDE, interval_us)
 
 
+def test_some_streams_flow_only_when_there_is_something_to_say(view: View) -> None:
+    sent = fly(Telemetry(), view, 0, 100)
+    assert (sent["FENCE_STATUS"], sent["NAMED_VALUE_FLOAT"]) == (0, 0)
+    busy = replace(view, snapshot=replace(view.snapshot, fence_enabled=True, in_formation=True))
+    sent = fly(Telemetry(), busy, 0, 100)
+    assert (sent["FENCE_STATUS"], sent["NAMED_VALUE_FLOAT"]) == (5, 10)
+
+
+@pytest.mark.parametrize(("rate_hz", "interval_us"), [(4, 250_000), (10, 100_000), (1000, 40_000), (65535, 40_000)])
+def test_a_group_gets_the_rate_asked_for_as_far_as_it_can_be_had(rate_hz: int, interval_us: int) -> None:
+    telemetry = Telemetry()
+    telemetry.request_group(mavlink.MAV_DATA_STREAM_ALL, rate_hz, start=True)
+    assert telemetry.interval_us(ATTITUDE) == interval_us
+    telemetry.request_group(mavlink.MAV_DATA_STREAM_EXTRA1, 0, start=True)
+    assert telemetry.interval_us(ATTITUDE) == -1
+
+
+def test_asking_again_and_again_holds_nothing_up(view: View) -> None:
+    telemetry = Telemetry()
+    sent: Counter[str] = Counter()
+    for tick in range(1, 251):
+        telemetry.request_group(mavlink.MAV_DATA_STREAM_ALL, 4, start=True)
+        sent.update(message.get_type() for message in telemetry.due(tick * 0.04, lambda: view))
+    assert sent["ATTITUDE"] == pytest.approx(40, abs=1)
+
+
 def test_unknown_streams_are_refused() -> None:
     assert not Telemetry().set_interval_us(mavlink.MAVLINK_MSG_ID_RAW_IMU, 1_000_000)
-    assert not Telemetry().set_interval_us(math.nan, 1_000_000)  # type: ignore[arg-type]
+    assert not Telemetry().set_interval_us(math.nan, 1_000_000)
     assert Telemetry().interval_us(99_999) is None
 
 
