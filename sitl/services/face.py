@@ -95,6 +95,7 @@ class MavlinkFace:
             self._greeted.discard(peer)
             self._missions.forget(peer)
             self._parameters.forget(peer)
+            self._telemetry.forget(peer)
 
     def on_bytes(self, data: bytes, peer: Peer) -> None:
         """Take what a peer sent: any bytes at all."""
@@ -132,8 +133,10 @@ class MavlinkFace:
     def on_simulated_tick(self, snapshot: Snapshot) -> None:
         """Send the streams that are due at the snapshot's time, and the events so far."""
         with self._vehicle.lock:
-            for message in self._telemetry.due(snapshot.time_s, lambda: self._view_of(snapshot)):
-                self._broadcast(message)
+            for peers, messages in self._telemetry.due(snapshot.time_s, self._codecs, lambda: self._view_of(snapshot)):
+                for peer in peers:
+                    for message in messages:
+                        self._reply(message, peer)
             self._tell_events()
             self._flush()
 

@@ -11,7 +11,7 @@ from sitl.events import StatusText
 from sitl.parameters import Parameters
 from sitl.services.peer import Message, Peer, Send, Station
 
-PER_PART = 32
+PER_PART = 36
 PART_S = 0.02
 """A list is sent in parts of so many (one datagram), so long apart, lest it flood a radio link."""
 

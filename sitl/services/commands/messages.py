@@ -64,10 +64,10 @@ class MessageCommands:
         return STREAMS[int(message_id)].messages(self._view()) if message_id in STREAMS else ()
 
     def _set_interval(self, request: Request) -> Answer:
-        return ACCEPTED if self._telemetry.set_interval_us(request.param1, request.param2) else denied()
+        return ACCEPTED if self._telemetry.set_interval_us(request.peer, request.param1, request.param2) else denied()
 
     def _get_interval(self, request: Request) -> Answer:
-        interval_us = self._telemetry.interval_us(request.param1)
+        interval_us = self._telemetry.interval_us(request.peer, request.param1)
         if interval_us is None:
             return failed()
         self._send(mavlink.MAVLink_message_interval_message(int(request.param1), interval_us), request.peer)

@@ -68,8 +68,8 @@ class CommandServer:
             case "MISSION_SET_CURRENT":
                 self._explain(self._mission.set_current(message.seq))
             case "REQUEST_DATA_STREAM":
-                start = bool(message.start_stop)
-                self._telemetry.request_group(message.req_stream_id, message.req_message_rate, start=start)
+                rate_hz = message.req_message_rate if message.start_stop else 0
+                self._telemetry.request_group(peer, message.req_stream_id, rate_hz)
 
     def _explain(self, answer: Answer) -> None:
         if answer.reason is not None:

@@ -1,6 +1,6 @@
 """Every message that can be streamed: how it is made, how often, and which of the old protocol's groups it is of."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
@@ -53,12 +53,12 @@ class Stream:
         when: whether it is worth streaming now; on request it always is.
     """
 
-    build: Callable[[View], Message | Sequence[Message]]
+    build: Callable[[View], Message | tuple[Message, ...]]
     interval_us: int = _FAST_US
     group: int = 0
     when: Callable[[View], bool] | None = None
 
-    def messages(self, view: View) -> Sequence[Message]:
+    def messages(self, view: View) -> tuple[Message, ...]:
         """What there is to send."""
         built = self.build(view)
         return built if isinstance(built, tuple) else (built,)
