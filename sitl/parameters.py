@@ -31,6 +31,7 @@ class Parameter:
         default: its value until it is set.
         low, high: what it may be set to.
         read_only: it tells, and cannot be told.
+        same_as: the parameter whose value this is, under the name that older or newer firmware has for it.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Parameter:
     low: float
     high: float
     read_only: bool = False
+    same_as: str = ""
 
 
 class Parameters:
@@ -50,31 +52,39 @@ class Parameters:
 
     Attributes:
         names: in the order of their indices, which is the alphabet's.
+        damage: what of the kept values could not be used, and why, for the stations; None when all is well.
     """
 
     def __init__(self, definitions: Iterable[Parameter], store: Store) -> None:
         self._definitions = {one.name: one for one in sorted(definitions, key=lambda one: one.name)}
         self._store = store
         self.names: list[str] = list(self._definitions)
-        self._values = {name: as_float32(one.default) for name, one in self._definitions.items()}
+        self._indices = {name: index for index, name in enumerate(self.names)}
+        self._values = {name: as_float32(one.default) for name, one in self._definitions.items() if not one.same_as}
         self._set: dict[str, float] = {}
-        kept = store.read(_PIECE)
-        for name, value in json.loads(kept).items() if kept else ():
-            if name in self._definitions:
-                self._values[name] = self._set[name] = value
+        self.damage = self._recall()
 
     def __contains__(self, name: str) -> bool:
         return name in self._definitions
 
     def __getitem__(self, name: str) -> float:
-        return self._values[name]
+        return self._values[self._own_name(name)]
 
     def kind(self, name: str) -> int:
         """MAV_PARAM_TYPE of a parameter."""
         return self._definitions[name].kind
 
+    def index(self, name: str) -> int:
+        """Place of a parameter in `names`."""
+        return self._indices[name]
+
+    def names_of(self, name: str) -> list[str]:
+        """All names of a parameter's value, its own first."""
+        own = self._own_name(name)
+        return [own, *(one.name for one in self._definitions.values() if one.same_as == own)]
+
     def set(self, name: str, value: float) -> None:
-        """Set a parameter, and keep it.
+        """Set a parameter, and keep it; whole numbers are rounded to.
 
         Raises:
             InputError: it cannot have that value, or could not be kept; it is as it was.
@@ -86,14 +96,39 @@ class Parameters:
             value = float(round(value))
         if not one.low <= value <= one.high:
             raise InputError(f"{name} must be {one.low:g} to {one.high:g}, got {value:g}")
-        changed = self._set | {name: as_float32(value)}
+        own = self._own_name(name)
+        changed = self._set | {own: as_float32(value)}
         self._store.write(_PIECE, json.dumps(changed).encode())
         self._set = changed
-        self._values[name] = changed[name]
+        self._values[own] = changed[own]
 
     def tell(self, name: str, value: float) -> None:
         """The vehicle's own news about a read-only parameter."""
         self._values[name] = as_float32(value)
+
+    def _own_name(self, name: str) -> str:
+        return self._definitions[name].same_as or name
+
+    def _recall(self) -> str | None:
+        """Take what was kept; returns what was wrong with it."""
+        try:
+            kept = json.loads(self._store.read(_PIECE) or b"{}")
+        except InputError as error:
+            return f"Parameters at defaults: {error}"
+        except ValueError:
+            kept = None
+        if not isinstance(kept, dict):
+            return "Parameters at defaults: what was kept of them is damaged"
+        bad = []
+        for name, value in kept.items():
+            one = self._definitions.get(name)
+            if one is None or one.read_only or one.same_as:
+                continue  # of another version: no use, no harm
+            if isinstance(value, int | float) and one.low <= value <= one.high:
+                self._values[name] = self._set[name] = as_float32(value)
+            else:
+                bad.append(name)
+        return f"At default, as what was kept is damaged: {', '.join(bad)}" if bad else None
 
 
 def arduplane_parameters(sysid: int, airframe: Airframe) -> list[Parameter]:
@@ -128,8 +163,8 @@ def arduplane_parameters(sysid: int, airframe: Airframe) -> list[Parameter]:
         Parameter("RTL_ALTITUDE", REAL, 100.0, -1.0, 10_000.0),
         Parameter("RTL_AUTOLAND", INT8, 0, 0, 3),
         Parameter("RTL_RADIUS", INT16, 0, -32767, 32767),
-        Parameter("SYSID_MYGCS", INT16, 255, 1, 255),
-        Parameter("SYSID_THISMAV", INT16, sysid, 1, 255),
+        Parameter("SYSID_MYGCS", INT16, 255, 1, 255, same_as="MAV_GCS_SYSID"),
+        Parameter("SYSID_THISMAV", INT16, sysid, 1, 255, same_as="MAV_SYSID"),
         Parameter("TECS_CLMB_MAX", REAL, airframe.climb_rate_max_m_s, 0.0, 100.0, read_only=True),
         Parameter("TECS_SINK_MAX", REAL, -airframe.climb_rate_min_m_s, 0.0, 100.0, read_only=True),
         Parameter("TKOFF_ALT", REAL, 50.0, 0.0, 200.0),

@@ -55,7 +55,6 @@ class Vehicle:
 
     def __init__(self, config: VehicleConfig, truth: TruthWriter, store: Store | None = None) -> None:
         self.lock = threading.RLock()
-        self.sysid = config.sysid
         self.tick = 0
         self.mode = Mode.MANUAL
         self.armed = False
@@ -82,6 +81,11 @@ class Vehicle:
         self._events: list[ItemReached | StatusText] = []
 
     # What a pilot may ask.
+
+    @property
+    def sysid(self) -> int:
+        """MAVLink system id; to its neighbours it stays what it was configured as."""
+        return int(self.parameters["MAV_SYSID"])
 
     @property
     def airborne(self) -> bool:
@@ -143,6 +147,10 @@ class Vehicle:
 
     def watch_station(self, now_s: float) -> None:
         """Wall time has passed."""
+
+    def prearm(self) -> str | None:
+        """Why it could not be armed now."""
+        return None
 
     def arm(self, *, force: bool = False) -> str | None:
         """Arm; returns the reason when it cannot be done."""
@@ -242,7 +250,7 @@ class Vehicle:
         self._truth.write(self._flight.air)
         errors = self._errors
         own = Correction(
-            self.sysid,
+            self._config.sysid,
             self.tick,
             self.tick,
             errors is not None,

@@ -24,7 +24,6 @@ class FakeVehicle:
     """A vehicle for tests of its MAVLink face: it stands where it is put and believes what it is told."""
 
     def __init__(self, sysid: int) -> None:
-        self.sysid = sysid
         self.lock = threading.RLock()
         self.home = HOME
         self.mission = Mission((HOME,))
@@ -32,6 +31,11 @@ class FakeVehicle:
         self.parameters = Parameters(
             [Parameter(f"SIM_{n}", REAL, float(n), -1e6, 1e6) for n in range(45)]
             + [
+                Parameter("MAV_GCS_SYSID", INT16, 255, 1, 255),
+                Parameter("MAV_SYSID", INT16, sysid, 1, 255),
+                Parameter("SYSID_THISMAV", INT16, sysid, 1, 255, same_as="MAV_SYSID"),
+                Parameter("TKOFF_ALT", REAL, 50.0, 0.0, 200.0),
+                Parameter("WP_LOITER_RAD", INT16, 60, -32767, 32767),
                 Parameter("WP_RADIUS", REAL, 90.0, 1.0, 32767.0),
                 Parameter("MIS_TOTAL", INT16, 0, 0, 9, read_only=True),
             ],
@@ -40,6 +44,7 @@ class FakeVehicle:
         self.asked: list[tuple[object, ...]] = []
         self.events: list[ItemReached | StatusText] = []
         self.refusal: str | None = None
+        self.watched_at_s: float | None = None
         self.state = Snapshot(
             time_s=0.0,
             mode=Mode.MANUAL,
@@ -64,6 +69,10 @@ class FakeVehicle:
             home_m=(0.0, 0.0, 1200.0),
             formation_delay_s=0.2,
         )
+
+    @property
+    def sysid(self) -> int:
+        return int(self.parameters["MAV_SYSID"])
 
     def change(self, **changes: object) -> None:
         self.state = replace(self.state, **changes)  # type: ignore[arg-type]
@@ -108,16 +117,21 @@ class FakeVehicle:
         self.ask("hear_station", now_s)
 
     def watch_station(self, now_s: float) -> None:
-        """Silence does not bother it."""
+        self.watched_at_s = now_s
+
+    def prearm(self) -> str | None:
+        return "no mission: upload one first" if len(self.mission) == 1 else None
 
     def arm(self, *, force: bool = False) -> str | None:
-        if len(self.mission) == 1:
+        self.asked.append(("arm", force))
+        if len(self.mission) == 1 and not force:
             return "no mission: upload one first"
         self.change(armed=True)
         return None
 
     def disarm(self, *, force: bool = False) -> str | None:
-        if self.state.airborne:
+        self.asked.append(("disarm", force))
+        if self.state.airborne and not force:
             return "in flight"
         self.change(armed=False)
         return None

@@ -37,6 +37,10 @@ class Codec:
         self.damaged = 0
         self.unknown = 0
 
+    def rename(self, sysid: int) -> None:
+        """Put another system id on packed frames from now on."""
+        self._mavlink.srcSystem = sysid
+
     def pack(self, message: Message, signing: Signer | None = None) -> bytes:
         """One MAVLink 2 frame, with this peer's next sequence number, signed where signing has a key."""
         frame = bytes(message.pack(self._mavlink))

@@ -1,5 +1,6 @@
 """A vehicle as its stations see it: all of its MAVLink services behind one entrance."""
 
+import time
 from collections.abc import Callable
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
@@ -7,15 +8,17 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from missions.frame import LocalFrame
 from sitl.events import ItemReached, StatusText
 from sitl.services.codec import Codec
-from sitl.services.commands import CommandServer
+from sitl.services.commands.server import CommandServer
+from sitl.services.file_transfer import ftp_refusal
 from sitl.services.heartbeat import heartbeat
 from sitl.services.mission_server import MissionServer
+from sitl.services.news import News
 from sitl.services.parameters import ParameterServer
 from sitl.services.peer import Message, Peer
 from sitl.services.signing import Signing, Verdict
 from sitl.services.signing_server import SigningServer
 from sitl.services.status_text import status_text_messages
-from sitl.services.stream_messages import View
+from sitl.services.stream_messages.view import View
 from sitl.services.telemetry import Telemetry
 from sitl.services.vehicle import Vehicle
 from sitl.snapshot import Snapshot
@@ -37,6 +40,7 @@ class MavlinkFace:
         send: puts bytes on the wire to a peer; must not block.
         now: wall time in seconds; only differences matter.
         signing: its key, if it has one or is to keep one that it is given.
+        epoch_s: UNIX time at which simulated time is zero; by default, now.
 
     Attributes:
         rejected: frames without effect, because they were unsigned, wrongly signed or old.
@@ -49,22 +53,27 @@ class MavlinkFace:
         send: Callable[[Peer, bytes], None],
         now: Callable[[], float],
         signing: Signing | None = None,
+        epoch_s: float | None = None,
     ) -> None:
         self._vehicle = vehicle
         self._frame = frame
         self._send_bytes = send
         self._now = now
+        self._epoch_s = time.time() if epoch_s is None else epoch_s
+        self._sysid = vehicle.sysid
         self._codecs: dict[Peer, Codec] = {}
         self._outbox: dict[Peer, bytearray] = {}
+        self._greeted: set[Peer] = set()
         self._heartbeat_at_s = now()
         self._text_id = 0
         self.rejected = 0
         self._signing = signing or Signing()
         self._links_seen = 0
         self._keys = SigningServer(vehicle, self._signing, self._report)
+        self._news = News()
         self._telemetry = Telemetry()
         self._missions = MissionServer(vehicle, self._reply, self._report, now)
-        self._parameters = ParameterServer(vehicle.parameters, self._reply, self._report)
+        self._parameters = ParameterServer(vehicle.parameters, self._reply, self._broadcast, self._report, now)
         self._commands = CommandServer(vehicle, self._telemetry, self._view, self._reply, self._report)
 
     @property
@@ -76,15 +85,17 @@ class MavlinkFace:
         """Telemetry goes to `peer` from now on."""
         with self._vehicle.lock:
             if peer not in self._codecs:
-                self._codecs[peer] = Codec(self._vehicle.sysid, _AUTOPILOT, link_id=self._links_seen % 256)
+                self._codecs[peer] = Codec(self._sysid, _AUTOPILOT, link_id=self._links_seen % 256)
                 self._links_seen += 1
 
     def remove_peer(self, peer: Peer) -> None:
         """`peer` is gone."""
         with self._vehicle.lock:
             self._codecs.pop(peer, None)
+            self._greeted.discard(peer)
             self._missions.forget(peer)
             self._parameters.forget(peer)
+            self._telemetry.forget(peer)
 
     def on_bytes(self, data: bytes, peer: Peer) -> None:
         """Take what a peer sent: any bytes at all."""
@@ -100,13 +111,19 @@ class MavlinkFace:
     def on_tick(self) -> None:
         """Do what wall time demands: heartbeats, time-outs, lists, events. Call it some ten times a second or more."""
         with self._vehicle.lock:
-            if self._now() >= self._heartbeat_at_s:
-                self._heartbeat_at_s = self._now() + _HEARTBEAT_PERIOD_S
-                self._broadcast(heartbeat(self._vehicle.snapshot()))
+            now_s = self._now()
+            self._vehicle.watch_station(now_s)
+            self._take_name()
+            view = self._view()
+            if now_s >= self._heartbeat_at_s:
+                self._heartbeat_at_s = now_s + _HEARTBEAT_PERIOD_S
+                self._broadcast(heartbeat(view.snapshot))
             self._missions.on_tick()
             self._parameters.on_tick()
             self._keys.on_tick()
             self._tell_events()
+            for message in self._news.of(view):
+                self._broadcast(message)
             self._flush()
 
     def wants(self, time_s: float) -> bool:
@@ -116,8 +133,10 @@ class MavlinkFace:
     def on_simulated_tick(self, snapshot: Snapshot) -> None:
         """Send the streams that are due at the snapshot's time, and the events so far."""
         with self._vehicle.lock:
-            for message in self._telemetry.due(snapshot.time_s, lambda: self._view_of(snapshot)):
-                self._broadcast(message)
+            for peers, messages in self._telemetry.due(snapshot.time_s, self._codecs, lambda: self._view_of(snapshot)):
+                for peer in peers:
+                    for message in messages:
+                        self._reply(message, peer)
             self._tell_events()
             self._flush()
 
@@ -126,16 +145,41 @@ class MavlinkFace:
             return
         if getattr(message, "target_component", 0) not in (0, _AUTOPILOT):
             return
-        if message.get_type() == "TIMESYNC":
-            self._answer_timesync(message, peer)
-        self._missions.on_message(message, peer)
-        self._parameters.on_message(message, peer)
-        self._commands.on_message(message, peer)
-        self._keys.on_message(message)
+        match message.get_type():
+            case "HEARTBEAT":
+                self._on_heartbeat(message, peer)
+            case "TIMESYNC":
+                self._answer_timesync(message, peer)
+            case "FILE_TRANSFER_PROTOCOL":
+                if (refusal := ftp_refusal(message)) is not None:
+                    self._reply(refusal, peer)
+            case _:
+                self._missions.on_message(message, peer)
+                self._parameters.on_message(message, peer)
+                self._commands.on_message(message, peer)
+                self._keys.on_message(message)
+
+    def _on_heartbeat(self, message: Message, peer: Peer) -> None:
+        """A station is there. All are obeyed; MAV_GCS_SYSID is whose silence counts."""
+        if message.type != mavlink.MAV_TYPE_GCS:
+            return
+        if message.get_srcSystem() == self._vehicle.parameters["MAV_GCS_SYSID"]:
+            self._vehicle.hear_station(self._now())
+        if peer not in self._greeted:
+            self._greeted.add(peer)
+            if (damage := self._vehicle.parameters.damage) is not None:
+                self._report(StatusText(mavlink.MAV_SEVERITY_WARNING, damage))
 
     def _answer_timesync(self, message: Message, peer: Peer) -> None:
         if message.tc1 == 0:
             self._reply(mavlink.MAVLink_timesync_message(int(self._now() * 1e9), message.ts1), peer)
+
+    def _take_name(self) -> None:
+        """Speak under the system id that MAV_SYSID has been set to."""
+        if self._sysid != self._vehicle.sysid:
+            self._sysid = self._vehicle.sysid
+            for codec in self._codecs.values():
+                codec.rename(self._sysid)
 
     def _tell_events(self) -> None:
         for event in self._vehicle.drain_events():
@@ -149,7 +193,8 @@ class MavlinkFace:
         return self._view_of(self._vehicle.snapshot())
 
     def _view_of(self, snapshot: Snapshot) -> View:
-        return View(snapshot, self._frame, self._vehicle.mission, self._missions.opaque_id)
+        vehicle, plan_ids = self._vehicle, (self._missions.opaque_id, 0, 0)
+        return View(snapshot, self._frame, vehicle.home, vehicle.mission, plan_ids, self._epoch_s)
 
     def _report(self, status: StatusText) -> None:
         self._text_id = self._text_id % _LAST_TEXT_ID + 1

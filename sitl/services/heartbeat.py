@@ -17,17 +17,21 @@ _MANUAL = (
 
 
 def heartbeat(snapshot: Snapshot) -> Message:
-    """HEARTBEAT: mode, armed or not, standing by or active (in the air)."""
+    """HEARTBEAT: mode, armed or not, standing by or active (in the air), critical in a failsafe."""
     base_mode = _MANUAL
     if snapshot.mode != Mode.MANUAL:
         base_mode |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED
     if snapshot.armed:
         base_mode |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED
+    if snapshot.failsafe:
+        status = mavlink.MAV_STATE_CRITICAL
+    else:
+        status = mavlink.MAV_STATE_ACTIVE if snapshot.airborne else mavlink.MAV_STATE_STANDBY
     return mavlink.MAVLink_heartbeat_message(
         mavlink.MAV_TYPE_FIXED_WING,
         mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA,
         base_mode,
         int(snapshot.mode),
-        mavlink.MAV_STATE_ACTIVE if snapshot.airborne else mavlink.MAV_STATE_STANDBY,
+        status,
         _MAVLINK_VERSION,
     )

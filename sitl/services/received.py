@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from sitl.services.mode_messages import MODE_MESSAGES
 from sitl.services.peer import Message
 
 MAGIC_V1, MAGIC_V2 = 0xFE, 0xFD
@@ -68,8 +69,10 @@ def _kind(message: Message) -> Kind:
     return Kind(message.id, message.msgname, bytes([message.crc_extra]), message.unpacker, tuple(fields), time_at)
 
 
-KINDS: dict[int, Kind] = {message_id: _kind(message) for message_id, message in mavlink.mavlink_map.items()}
-"""Every message of the dialect, by its number."""
+KINDS: dict[int, Kind] = {
+    message_id: _kind(message) for message_id, message in (mavlink.mavlink_map | MODE_MESSAGES).items()
+}
+"""Every message of the dialect, and those it has not yet, by its number."""
 
 
 class Received:

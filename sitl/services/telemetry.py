@@ -1,88 +1,77 @@
-"""Which telemetry message is due when, in simulated time."""
+"""Which telemetry is due to whom, in simulated time."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
-from pymavlink.dialects.v20 import ardupilotmega as mavlink
-
-from sitl.services.peer import Message
-from sitl.services.stream_messages import BUILDERS, View
+from sitl.services.peer import Message, Peer
+from sitl.services.schedule import TICK_US, Schedule
+from sitl.services.stream_messages.streams import STREAMS
+from sitl.services.stream_messages.view import View
 from sitl.ticks import TICK_S
-
-TICK_US = round(TICK_S * 1e6)
-"""The shortest interval of a stream (25 Hz)."""
-
-OFF_US = -1
-
-DEFAULT_INTERVALS_US = dict.fromkeys(BUILDERS, 1_000_000) | {
-    mavlink.MAVLINK_MSG_ID_HOME_POSITION: 10_000_000,
-    mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: OFF_US,
-}
-
-_NEVER_US = 2**63
-_LONGEST_US = 2**31 - 1
-"""What MESSAGE_INTERVAL can say."""
 
 
 class Telemetry:
-    """The streams of one vehicle, the same for all its stations.
-
-    All is counted in whole microseconds, and each stream falls due at multiples of its interval, so that streams of one
-    rate leave together.
-    """
+    """The streams of one vehicle. As on ArduPilot, each peer has intervals of its own once it asks for some."""
 
     def __init__(self) -> None:
-        self._intervals_us = dict(DEFAULT_INTERVALS_US)
-        self._due_us = {
-            message_id: _NEVER_US if interval == OFF_US else 0 for message_id, interval in self._intervals_us.items()
-        }
+        self._default = Schedule()
+        self._own: dict[Peer, Schedule] = {}
         self._next_us = 0
-        self._last_us = 0
+        self._now_us = 0
 
     def is_due(self, time_s: float) -> bool:
         """Whether any stream is due at this simulated time: one comparison, for use at each tick."""
         return _tick_us(time_s) >= self._next_us
 
-    def due(self, time_s: float, view: Callable[[], View]) -> list[Message]:
-        """The messages due at this simulated time, each once however late.
+    def due(
+        self, time_s: float, peers: Iterable[Peer], view: Callable[[], View]
+    ) -> list[tuple[list[Peer], list[Message]]]:
+        """The messages due at this simulated time, each once however late, and to whom.
 
         Args:
             time_s: simulated time, a whole number of ticks.
-            view: called once, and only when something is due.
+            peers: whoever is there.
+            view: called once, and only when something is due to someone.
         """
-        now_us = _tick_us(time_s)
-        self._last_us = now_us
+        self._now_us = now_us = _tick_us(time_s)
         if now_us < self._next_us:
             return []
-        due = [message_id for message_id, due_us in self._due_us.items() if due_us <= now_us]
-        for message_id in due:
-            interval_us = self._intervals_us[message_id]
-            self._due_us[message_id] = (now_us // interval_us + 1) * interval_us
-        self._next_us = min(self._due_us.values())
+        wanted = [([peer for peer in peers if peer not in self._own], self._default.take(now_us))]
+        wanted += [([peer], schedule.take(now_us)) for peer, schedule in self._own.items()]
+        wanted = [(to, due) for to, due in wanted if to and due]
+        self._set_next()
+        if not wanted:
+            return []
         state = view()
-        return [BUILDERS[message_id](state) for message_id in due]
+        built: dict[int, tuple[Message, ...]] = {}
+        for message_id in {message_id for _, due in wanted for message_id in due}:
+            stream = STREAMS[message_id]
+            built[message_id] = stream.messages(state) if stream.when is None or stream.when(state) else ()
+        return [(to, [message for message_id in due for message in built[message_id]]) for to, due in wanted]
 
-    def interval_us(self, message_id: int) -> int | None:
-        """Interval of a stream, -1 when it is off, None when there is no such stream."""
-        return self._intervals_us.get(message_id)
+    def interval_us(self, peer: Peer, message_id: float) -> int | None:
+        """Interval of a stream to a peer, -1 when it is off, None when there is no such stream."""
+        return self._own.get(peer, self._default).interval_us(message_id)
 
-    def set_interval_us(self, message_id: int, interval_us: float) -> bool:
-        """Set a stream's interval as MAV_CMD_SET_MESSAGE_INTERVAL does: 0 the default, -1 off.
-
-        Returns:
-            False when there is no such stream or it cannot have that interval.
-        """
-        if message_id not in self._intervals_us:
+    def set_interval_us(self, peer: Peer, message_id: float, interval_us: float) -> bool:
+        """Set the interval of a stream to a peer; see `Schedule.set_interval_us`."""
+        schedule = self._own.get(peer) or self._default.copy()
+        if not schedule.set_interval_us(message_id, interval_us, self._now_us):
             return False
-        if interval_us == 0:
-            interval_us = DEFAULT_INTERVALS_US[message_id]
-        if not (interval_us == OFF_US or TICK_US <= interval_us <= _LONGEST_US):
-            return False
-        interval = int(interval_us)
-        self._intervals_us[message_id] = interval
-        next_us = _NEVER_US if interval == OFF_US else (self._last_us // interval + 1) * interval
-        self._due_us[message_id] = next_us
-        self._next_us = min(self._due_us.values())
+        self._own[peer] = schedule
+        self._set_next()
         return True
+
+    def request_group(self, peer: Peer, group: int, rate_hz: int) -> None:
+        """Set the intervals of a group of streams to a peer; see `Schedule.request_group`."""
+        self._own.setdefault(peer, self._default.copy()).request_group(group, rate_hz, self._now_us)
+        self._set_next()
+
+    def forget(self, peer: Peer) -> None:
+        """A peer is gone: what it asked for with it."""
+        self._own.pop(peer, None)
+
+    def _set_next(self) -> None:
+        self._next_us = min(schedule.next_us for schedule in (self._default, *self._own.values()))
 
 
 def _tick_us(time_s: float) -> int:

@@ -47,6 +47,9 @@ class Vehicle(Protocol):
     def snapshot(self) -> Snapshot:
         """Its state now."""
 
+    def prearm(self) -> str | None:
+        """Why it could not be armed now; changes nothing."""
+
     def arm(self, *, force: bool = False) -> str | None:
         """Arm, if the pre-arm checks pass or by force."""
 

@@ -1,0 +1,1 @@
+"""A vehicle's state as MAVLink telemetry messages; `streams.STREAMS` is the list of them."""
