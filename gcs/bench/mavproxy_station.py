@@ -15,6 +15,8 @@ from gcs.bench.peers import PATIENCE_S, peer_module
 MODULES = "wp,param,fence,rally,mode,arm,cmdlong,misc"
 
 _END_S = 5.0
+_SHOWN = 2000
+"""Characters of its last words in an error."""
 
 
 class MavProxy:
@@ -69,8 +71,16 @@ class MavProxy:
         while (match := pattern.search(self.said, start)) is None:
             left_s = deadline_s - time.monotonic()
             if left_s <= 0.0 or (not self._read(left_s) and self._process.poll() is not None):
-                raise TimeoutError(f"MAVProxy did not say {answer!r}; it said {self.said[start:]!r}")
+                raise TimeoutError(f"MAVProxy did not say {answer!r}; it said {self.said[start:][-_SHOWN:]!r}")
         return match
+
+    def repeat(self, command: str, answer: str, patience_s: float = PATIENCE_S) -> re.Match[str]:
+        """Give a command every second until the answer comes: for what MAVProxy does later than it is told to."""
+        deadline_s = time.monotonic() + patience_s
+        while time.monotonic() < deadline_s - 1.0:
+            with contextlib.suppress(TimeoutError):
+                return self.ask(command, answer, 1.0)
+        return self.ask(command, answer, deadline_s - time.monotonic())
 
     def _read(self, timeout_s: float) -> bool:
         """Take what it says within `timeout_s`; whether there was anything."""

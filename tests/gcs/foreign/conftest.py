@@ -7,7 +7,6 @@ import socket
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -94,11 +93,3 @@ def relay() -> Iterator[MakeRelay]:
             return stack.enter_context(contextlib.closing(LossyRelay(endpoint_port, loss, seed)))
 
         yield make
-
-
-@pytest.fixture
-def fenced(make_vehicle: Any, make_mission: Any) -> Any:
-    """Vehicle 6 with a mission of 25 items and parameters."""
-    vehicle = make_vehicle(6)
-    vehicle.mission = make_mission(25)
-    return vehicle
