@@ -1,0 +1,1 @@
+"""Measuring Skein's stations and endpoints against other people's."""

@@ -1,0 +1,95 @@
+"""Other people's stations, and endpoints' faces for them to talk to."""
+
+import contextlib
+import random
+import selectors
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from gcs.bench.mavproxy_station import MavProxy
+from gcs.bench.mavsdk_station import MavsdkStation
+from gcs.bench.peers import LOOPBACK
+
+MakeMavsdk = Callable[[str], MavsdkStation]
+MakeMavProxy = Callable[[str], MavProxy]
+MakeRelay = Callable[..., "LossyRelay"]
+
+
+@pytest.fixture
+def mavsdk() -> Iterator[MakeMavsdk]:
+    """MAVSDK instances, by what they connect to."""
+    with contextlib.ExitStack() as stack:
+        yield lambda url: stack.enter_context(MavsdkStation(url))
+
+
+@pytest.fixture
+def mavproxy(tmp_path: Path) -> Iterator[MakeMavProxy]:
+    """MAVProxy processes at home in `tmp_path`, by what they connect to."""
+    with contextlib.ExitStack() as stack:
+        yield lambda master: stack.enter_context(MavProxy(master, tmp_path))
+
+
+class LossyRelay:
+    """Carries datagrams between one station and one endpoint, and drops some both ways, as a seed says.
+
+    The station talks to `port`; what it says leaves for the endpoint from another socket.
+    """
+
+    def __init__(self, endpoint_port: int, loss: float, seed: int) -> None:
+        self._random = random.Random(seed)
+        self._loss = loss
+        self._near = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._near.bind((LOOPBACK, 0))
+        self._far = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._far.connect((LOOPBACK, endpoint_port))
+        self._wake, self._stop = socket.socketpair()
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+        self.port = int(self._near.getsockname()[1])
+        self.n_dropped = 0
+
+    def close(self) -> None:
+        """Stop carrying, and close the sockets."""
+        self._stop.send(b"\0")
+        self._thread.join()
+        for end in (self._near, self._far, self._wake, self._stop):
+            end.close()
+
+    def _run(self) -> None:
+        station = None
+        with selectors.DefaultSelector() as selector:
+            for end in (self._near, self._far, self._wake):
+                selector.register(end, selectors.EVENT_READ)
+            while True:
+                for key, _ in selector.select():
+                    if key.fileobj is self._wake:
+                        return
+                    with contextlib.suppress(ConnectionRefusedError):
+                        if key.fileobj is self._near:
+                            data, station = self._near.recvfrom(65536)
+                            if self._survives():
+                                self._far.send(data)
+                        else:
+                            data = self._far.recv(65536)
+                            if station is not None and self._survives():
+                                self._near.sendto(data, station)
+
+    def _survives(self) -> bool:
+        lost = self._random.random() < self._loss
+        self.n_dropped += lost
+        return not lost
+
+
+@pytest.fixture
+def relay() -> Iterator[MakeRelay]:
+    """Lossy relays to an endpoint's UDP port."""
+    with contextlib.ExitStack() as stack:
+
+        def make(endpoint_port: int, *, loss: float, seed: int) -> LossyRelay:
+            return stack.enter_context(contextlib.closing(LossyRelay(endpoint_port, loss, seed)))
+
+        yield make
