@@ -7,10 +7,10 @@ import time
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.transfers.errors import TransferError
-from gcs.transfers.round_trip import TRIES
 from gcs.vehicle_link import VehicleLink
 from sitl.services.peer import Message
 from sitl.services.received import SIGNED
+from sitl.services.round_trip import TRIES
 from sitl.services.signing import NO_KEY, Signer, Signing, Verdict
 
 PATIENCE_S = 1.5
