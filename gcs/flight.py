@@ -23,11 +23,11 @@ from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from planner.verify import require, verify
 from sitl.config import Arm
-from sitl.endpoint import Ended
 from sitl.formation.graph import edges, laplacian
 from sitl.formation.law import Gains
 from sitl.formation.margin import aircraft_margin_s
 from sitl.modes import Mode
+from sitl.reports import Ended
 from sitl.services.links import LOOPBACK
 from sitl.swarm import Swarm, SwarmOptions
 from sitl.ticks import TICK_S, delay_ticks
@@ -48,11 +48,13 @@ class FlightOptions:
         delay_s: of the corrections; rounded up to whole ticks.
         arm: how much of the formation law is on.
         speed: factor of simulated time; infinite for as fast as it goes.
+        per_process: vehicles that share a process; None chooses.
     """
 
     delay_s: float
     arm: Arm = "full"
     speed: float = math.inf
+    per_process: int | None = None
 
 
 Announce = Callable[[str], None]
@@ -146,6 +148,7 @@ def _swarm_options(plan: FormationPlan, run: RunFolder, options: FlightOptions, 
         speed=options.speed,
         stations=((LOOPBACK, port),),
         truth=run.truth,
+        per_process=options.per_process,
     )
 
 

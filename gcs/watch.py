@@ -10,8 +10,8 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.flight_record import Event
 from gcs.vehicle_link import VehicleLink
+from sitl.child import Endpoint
 from sitl.modes import Mode
-from sitl.swarm import Endpoint
 
 PERIOD_S = 0.1
 OVERTIME_S = 120.0

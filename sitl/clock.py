@@ -4,7 +4,7 @@ import json
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import zenoh
@@ -94,11 +94,17 @@ class Clock:
             self._changed.notify_all()
 
 
-def serve_clock(session: zenoh.Session, swarm: str, sysid: int, clock: Clock) -> None:
-    """Answer queries on the swarm's clock key with the endpoint's state, or an error that says what was wrong.
+def serve_clock(session: zenoh.Session, swarm: str, sysids: Callable[[], Iterable[int]], clock: Clock) -> None:
+    """Answer queries on the swarm's clock key with the state of each vehicle, or an error that says what was wrong.
 
     A query's payload is JSON: {"do": "hold" | "release" | "stop" | "state"}, and {"speed": number}, where 0 means as
     fast as it goes.
+
+    Args:
+        session: open.
+        swarm: part of the key.
+        sysids: gives the vehicles that go by this clock.
+        clock: theirs.
     """
 
     def answer(query: zenoh.Query) -> None:
@@ -106,11 +112,12 @@ def serve_clock(session: zenoh.Session, swarm: str, sysid: int, clock: Clock) ->
             request = json.loads(query.payload.to_bytes()) if query.payload is not None else {"do": "state"}
             _obey(clock, request)
         except (ValueError, TypeError, AttributeError) as error:
-            query.reply_err(f"vehicle {sysid}: {error}")
+            query.reply_err(f"vehicle {', '.join(map(str, sysids()))}: {error}")
             return
         speed = clock.speed if clock.paced else 0.0
-        state = {"sysid": sysid, "tick": clock.tick, "held": clock.held, "speed": speed, "stopped": clock.stopped}
-        query.reply(clock_key(swarm), json.dumps(state))
+        state = {"tick": clock.tick, "held": clock.held, "speed": speed, "stopped": clock.stopped}
+        for sysid in sysids():
+            query.reply(clock_key(swarm), json.dumps({"sysid": sysid} | state))
 
     session.declare_queryable(clock_key(swarm), zenoh.handlers.Callback(answer, indirect=False))
 

@@ -1,27 +1,32 @@
 """A swarm of endpoints as processes of this machine: started together, looked after, ended together."""
 
 import math
-import multiprocessing
-import signal
+import os
+import selectors
 import time
 import uuid
-from dataclasses import dataclass
-from multiprocessing.connection import Connection, wait
-from multiprocessing.context import ForkServerProcess
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from multiprocessing.connection import wait
 from pathlib import Path
 from types import TracebackType
 
 from missions.errors import InputError
 from missions.scenario import Scenario
+from sitl.child import Endpoint, EndpointProcess
 from sitl.config import Arm, VehicleConfig
-from sitl.endpoint import Ended, EndpointConfig, Failed, Ready, Report, run_endpoint
+from sitl.endpoint import EndpointConfig
 from sitl.formation.graph import edges, neighbour_weights
 from sitl.formation.law import Gains
+from sitl.process import ProcessConfig
+from sitl.stands import stands
 from sitl.ticks import delay_ticks
-from sitl.zenoh_session import Peer, discard_sockets, local_peers
+from sitl.zenoh_session import discard_sockets, local_peers, make_socket_folder
 
 START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
+MOST_PROCESSES = 24
+"""Larger swarms share processes, as many as there are cores, unless told otherwise."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,10 @@ class SwarmOptions:
         tcp_port: of the first vehicle, 10 more each for the others; 0 for free ones.
         truth: folder for the truth files; None keeps none.
         memory: folder of what the vehicles remember over restarts, one each in it; None forgets.
+        signing_key: the vehicles' MAVLink key of 32 bytes until they are given another; None for none.
+        count: of vehicles, when not the scenario's (see `stands`).
+        sysid_base: system id of the first vehicle, when not the scenario's.
+        per_process: vehicles that share a process; None chooses.
     """
 
     seed: int
@@ -49,43 +58,10 @@ class SwarmOptions:
     tcp_port: int = 0
     truth: Path | None = None
     memory: Path | None = None
-
-
-@dataclass
-class Endpoint:
-    """One endpoint's process, seen from the station."""
-
-    sysid: int
-    process: ForkServerProcess
-    reports: Connection
-    ready: Ready | None = None
-    last: Ended | Failed | None = None
-
-    def read_reports(self) -> None:
-        """Take what the process has reported so far."""
-        try:
-            while self.reports.poll():
-                self._take(self.reports.recv())
-        except (EOFError, OSError):
-            pass
-
-    def _take(self, report: Report) -> None:
-        if isinstance(report, Ready):
-            self.ready = report
-        else:
-            self.last = report
-
-    def obituary(self) -> str | None:
-        """Why the vehicle was lost; None while its process runs. Not to be asked once the clock was told to stop."""
-        self.read_reports()
-        if isinstance(self.last, Failed):
-            return self.last.reason
-        if isinstance(self.last, Ended):
-            return f"process ended at tick {self.last.tick}, though nobody had stopped its clock"
-        if self.process.is_alive():
-            return None
-        code = self.process.exitcode or 0
-        return f"process killed by {signal.Signals(-code).name}" if code < 0 else f"process ended with code {code}"
+    signing_key: bytes | None = None
+    count: int | None = None
+    sysid_base: int | None = None
+    per_process: int | None = None
 
 
 class Swarm:
@@ -101,61 +77,67 @@ class Swarm:
 
     def __init__(self, scenario: Scenario, options: SwarmOptions) -> None:
         self.name = uuid.uuid4().hex[:8]
-        vehicles = vehicle_configs(scenario, options)
-        self._peers, self.station_peer = local_peers({vehicle.sysid: vehicle.weights for vehicle in vehicles})
-        context = multiprocessing.get_context("forkserver")
-        context.set_forkserver_preload(["sitl.endpoint"])
+        endpoints = [
+            _endpoint_config(i, vehicle, options) for i, vehicle in enumerate(vehicle_configs(scenario, options))
+        ]
+        size = per_process(options.per_process, len(endpoints))
+        groups = [tuple(endpoints[i : i + size]) for i in range(0, len(endpoints), size)]
+        self._peers, self.station_peer = local_peers(_group_neighbours(groups))
+        self._processes: list[EndpointProcess] = []
         self.endpoints: dict[int, Endpoint] = {}
         try:
-            for i, vehicle in enumerate(vehicles):
-                config = self._endpoint_config(i, vehicle, self._peers[vehicle.sysid], options)
-                reports, child_end = context.Pipe(duplex=False)
-                process = context.Process(
-                    target=run_endpoint, args=(config, child_end), name=f"skein-{vehicle.sysid}", daemon=True
-                )
-                process.start()
-                child_end.close()
-                self.endpoints[vehicle.sysid] = Endpoint(vehicle.sysid, process, reports)
-            self._wait_until_ready()
+            for i, group in enumerate(groups):
+                self._start(ProcessConfig(group, self.name, self._peers[i], options.held, options.speed))
+            self._wait_until_ready(self._processes)
         except BaseException:
             self.end()
             raise
 
-    def _endpoint_config(self, i: int, vehicle: VehicleConfig, peer: Peer, options: SwarmOptions) -> EndpointConfig:
-        return EndpointConfig(
-            vehicle=vehicle,
-            swarm=self.name,
-            peer=peer,
-            stations=options.stations,
-            tcp_port=options.tcp_port + 10 * i if options.tcp_port else 0,
-            truth=options.truth / f"{vehicle.sysid}.f64" if options.truth else None,
-            memory=options.memory / str(vehicle.sysid) if options.memory else None,
-            held=options.held,
-            speed=options.speed,
-        )
+    def restart(self, sysid: int, tick: int = 0) -> None:
+        """Start the ended process of a vehicle again, and with it those that share it; they remember what they had.
 
-    def _wait_until_ready(self) -> None:
+        Their neighbours, who have flown on without them, wait for them again.
+
+        Args:
+            sysid: of the vehicle.
+            tick: simulated time at which they begin, near to that of the others.
+
+        Raises:
+            InputError: they could not start.
+        """
+        old = self.endpoints[sysid].owner
+        old.process.terminate()
+        old.end(time.monotonic() + END_TIMEOUT_S)
+        self._processes.remove(old)
+        make_socket_folder(old.config.peer)
+        endpoints = tuple(replace(endpoint, start_tick=tick) for endpoint in old.config.endpoints)
+        self._wait_until_ready([self._start(replace(old.config, endpoints=endpoints))])
+
+    def _start(self, config: ProcessConfig) -> EndpointProcess:
+        process = EndpointProcess(config)
+        self._processes.append(process)
+        for one in config.endpoints:
+            self.endpoints[one.vehicle.sysid] = Endpoint(one.vehicle.sysid, one.vehicle.name, process)
+        return process
+
+    def _wait_until_ready(self, processes: list[EndpointProcess]) -> None:
         deadline = time.monotonic() + START_TIMEOUT_S
-        while starting := [e for e in self.endpoints.values() if e.ready is None]:
-            wait([e.reports for e in starting], timeout=1.0)
-            for endpoint in starting:
+        while starting := [process for process in processes if process.starting]:
+            wait([process.reports for process in starting], timeout=1.0)
+            missing = [e for e in self.endpoints.values() if e.owner in starting and e.ready is None]
+            for endpoint in missing:
                 if reason := endpoint.obituary():
                     raise InputError(reason)
             if time.monotonic() > deadline:
-                raise InputError(f"vehicles {[e.sysid for e in starting]} did not start within {START_TIMEOUT_S:.0f} s")
+                raise InputError(f"vehicles {[e.sysid for e in missing]} did not start within {START_TIMEOUT_S:.0f} s")
 
     def end(self) -> None:
         """End all processes: by request, then by force."""
-        for endpoint in self.endpoints.values():
-            endpoint.process.terminate()
+        for process in self._processes:
+            process.process.terminate()
         deadline = time.monotonic() + END_TIMEOUT_S
-        for endpoint in self.endpoints.values():
-            endpoint.process.join(max(0.0, deadline - time.monotonic()))
-            if endpoint.process.is_alive():
-                endpoint.process.kill()
-                endpoint.process.join()
-            endpoint.read_reports()
-            endpoint.reports.close()
+        for process in self._processes:
+            process.end(deadline)
         for peer in self._peers.values():  # who was killed could not do it
             discard_sockets(peer)
 
@@ -168,16 +150,52 @@ class Swarm:
         self.end()
 
 
+def per_process(asked: int | None, count: int) -> int:
+    """How many of `count` vehicles share a process.
+
+    Raises:
+        InputError: several were asked for, and this platform cannot serve the sockets of several.
+    """
+    able = hasattr(selectors.DefaultSelector, "fileno")
+    if asked is not None:
+        if asked > 1 and not able:
+            raise InputError(f"--per-process {asked}: this platform takes one vehicle a process")
+        return asked
+    if count <= MOST_PROCESSES or not able:
+        return 1
+    return math.ceil(count / (os.cpu_count() or 1))
+
+
+def _group_neighbours(groups: Sequence[tuple[EndpointConfig, ...]]) -> dict[int, set[int]]:
+    """Which processes have neighbours in which others."""
+    process_of = {one.vehicle.sysid: i for i, group in enumerate(groups) for one in group}
+    return {
+        i: {process_of[sysid] for one in group for sysid in one.vehicle.weights} - {i} for i, group in enumerate(groups)
+    }
+
+
+def _endpoint_config(i: int, vehicle: VehicleConfig, options: SwarmOptions) -> EndpointConfig:
+    return EndpointConfig(
+        vehicle=vehicle,
+        stations=options.stations,
+        tcp_port=options.tcp_port + 10 * i if options.tcp_port else 0,
+        truth=options.truth / f"{vehicle.sysid}.f64" if options.truth else None,
+        memory=options.memory / str(vehicle.sysid) if options.memory else None,
+        signing_key=options.signing_key,
+    )
+
+
 def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleConfig]:
     """What each vehicle of a scenario is told at its start."""
     formation, wind = scenario.formation, scenario.wind
-    graph = edges(formation.graph, [vehicle.sysid for vehicle in scenario.vehicles])
+    everyone = stands(scenario, options.count, options.sysid_base)
+    graph = edges(formation.graph, [stand.sysid for stand in everyone])
     return [
         VehicleConfig(
-            sysid=vehicle.sysid,
-            name=vehicle.name,
+            sysid=stand.sysid,
+            name=stand.name,
             frame=scenario.frame,
-            home_m=scenario.origin_m(vehicle),
+            home_m=stand.home_m,
             airframe=scenario.airframe.airframe(),
             terrain=scenario.environment.terrain,
             seed=options.seed,
@@ -185,9 +203,9 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             forecast_wind_m_s=wind.forecast_m_s,
             gusts=wind.gusts,
             gains=Gains(formation.k1, formation.k2, formation.k3, formation.k0),
-            weights=neighbour_weights(vehicle.sysid, graph),
+            weights=neighbour_weights(stand.sysid, graph),
             delay_ticks=delay_ticks(options.delay_s),
             arm=options.arm,
         )
-        for vehicle in scenario.vehicles
+        for stand in everyone
     ]

@@ -75,32 +75,39 @@ def sysid_of(alive: str, swarm: str) -> int:
 
 
 def local_peers(neighbours: Mapping[int, Iterable[int]]) -> tuple[dict[int, Peer], Peer]:
-    """A swarm's peers on this machine.
+    """A swarm's peers on this machine, one a process.
 
-    Of two neighbours the one with the larger sysid connects to the other; the station connects to all. They meet on
+    Of two neighbours the one with the larger number connects to the other; the station connects to all. They meet on
     Unix sockets in a new folder, or on free TCP ports where there are none.
 
     Args:
-        neighbours: of each vehicle, by sysid.
+        neighbours: of each process, by its number.
 
     Returns:
-        The vehicles' peers by sysid, and the station's.
+        The processes' peers by number, and the station's.
     """
     address = dict(zip(neighbours, _addresses(list(neighbours)), strict=True))
     peers = {
-        sysid: Peer((address[sysid],), tuple(address[other] for other in sorted(others) if other < sysid))
-        for sysid, others in neighbours.items()
+        number: Peer((address[number],), tuple(address[other] for other in sorted(others) if other < number))
+        for number, others in neighbours.items()
     }
     return peers, Peer((), tuple(address.values()))
 
 
-def _addresses(sysids: list[int]) -> list[str]:
+def _addresses(numbers: list[int]) -> list[str]:
     if hasattr(socket, "AF_UNIX"):
         folder = tempfile.mkdtemp(prefix="skein-")
-        return [f"{UNIX}{folder}/{sysid}" for sysid in sysids]
+        return [f"{UNIX}{folder}/{number}" for number in numbers]
     with contextlib.ExitStack() as stack:
-        listeners = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in sysids]
+        listeners = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in numbers]
         return [f"tcp/127.0.0.1:{listener.getsockname()[1]}" for listener in listeners]
+
+
+def make_socket_folder(peer: Peer) -> None:
+    """Make the folder of a session's socket again, if the last that had one in it has removed it."""
+    for endpoint in peer.listen:
+        if endpoint.startswith(UNIX):
+            Path(endpoint.removeprefix(UNIX)).parent.mkdir(mode=0o700, exist_ok=True)
 
 
 def discard_sockets(peer: Peer) -> None:

@@ -2,7 +2,8 @@
 
 import queue
 import time
-from collections.abc import Callable, Iterable
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 
 import zenoh
 
@@ -14,39 +15,45 @@ _Message = tuple[int, bytes | bool]
 
 
 class Exchange:
-    """Publishes the own corrections and waits for the neighbours'.
+    """Publishes the corrections of a process's vehicles and waits for those of their neighbours.
 
     In lockstep a vehicle at tick n waits for its neighbours' samples of an earlier tick. A neighbour whose liveliness
-    token has gone is waited for no longer.
+    token has gone is waited for no longer, until it is back. Neighbours in the process itself need no waiting for.
 
     Args:
         session: open; closed by its owner.
         swarm: part of every key.
-        sysid: own.
-        neighbours: sysids to listen to.
+        neighbours: sysids to listen to, of each vehicle of this process.
 
     Attributes:
-        rejected: messages that were not a neighbour's samples.
+        neighbours: those that are in other processes.
+        rejected: messages of each that were not its samples.
         gone: neighbours that have been there and are no more.
     """
 
-    def __init__(self, session: zenoh.Session, swarm: str, sysid: int, neighbours: Iterable[int]) -> None:
-        self.neighbours = tuple(sorted(neighbours))
-        self.rejected = 0
+    def __init__(self, session: zenoh.Session, swarm: str, neighbours: Mapping[int, Iterable[int]]) -> None:
+        heard = {neighbour for of in neighbours.values() for neighbour in of}
+        self.neighbours = tuple(sorted(heard - neighbours.keys()))
+        self.rejected: Counter[int] = Counter()
         self.gone: set[int] = set()
         self._present: set[int] = set()
         self._stopped = False
-        self._samples: dict[int, dict[int, Correction]] = {neighbour: {} for neighbour in self.neighbours}
+        self._gathered = -1
+        self._samples: dict[int, dict[int, Correction]] = {sysid: {} for sysid in sorted(heard)}
         self._newest = dict.fromkeys(self.neighbours, -1)
-        self._unsent: list[bytes] = []
+        self._own: dict[int, Correction] = {}
+        self._unsent: dict[int, list[bytes]] = {sysid: [] for sysid in neighbours}
         # Zenoh's threads only put into the inbox; everything else is the caller's thread's.
         self._inbox: queue.SimpleQueue[_Message | None] = queue.SimpleQueue()
-        self._publisher = session.declare_publisher(
-            correction_key(swarm, sysid),
-            congestion_control=zenoh.CongestionControl.BLOCK,
-            priority=zenoh.Priority.REAL_TIME,
-            express=False,
-        )
+        self._publishers = {
+            sysid: session.declare_publisher(
+                correction_key(swarm, sysid),
+                congestion_control=zenoh.CongestionControl.BLOCK,
+                priority=zenoh.Priority.REAL_TIME,
+                express=False,
+            )
+            for sysid in neighbours
+        }
         for neighbour in self.neighbours:
             session.declare_subscriber(
                 correction_key(swarm, neighbour),
@@ -71,21 +78,30 @@ class Exchange:
         return set()
 
     def publish(self, sample: Correction, *, now: bool) -> None:
-        """Tell the neighbours the own deviation: now, or together with later ones in one message."""
-        self._unsent.append(encode(sample))
+        """Tell the neighbours an own vehicle's deviation: now, or together with later ones in one message."""
+        if (kept := self._samples.get(sample.sysid)) is not None:
+            kept[sample.tick] = sample
+        self._own[sample.sysid] = sample
+        unsent = self._unsent[sample.sysid]
+        unsent.append(encode(sample))
         if now:
-            self._publisher.put(b"".join(self._unsent))
-            self._unsent.clear()
+            self._publishers[sample.sysid].put(b"".join(unsent))
+            unsent.clear()
 
     def gather(self, tick: int) -> dict[int, Correction]:
-        """The samples of a tick, waited for, of all neighbours that are there; none when `stop` was called."""
-        heard = {}
+        """The samples of a tick, waited for, of all neighbours that are there, each tick once; none of those that are
+        late when `stop` was called."""
+        while self.gone and not self._inbox.empty():  # is someone back?
+            self._take(self._inbox.get())
         for neighbour in self.neighbours:
             while self._newest[neighbour] < tick and neighbour not in self.gone and not self._stopped:
                 self._take(self._inbox.get())
-            sample = self._samples[neighbour].pop(tick, None)
+        self._gathered = tick
+        heard = {}
+        for sysid, samples in self._samples.items():
+            sample = samples.pop(tick, None)
             if sample is not None:
-                heard[neighbour] = sample
+                heard[sysid] = sample
         return heard
 
     def stop(self) -> None:
@@ -99,23 +115,32 @@ class Exchange:
         neighbour, content = message
         if content is True:
             self._present.add(neighbour)
+            if neighbour in self.gone:
+                self.gone.discard(neighbour)
+                self._greet()
         elif content is False:
             self._present.discard(neighbour)
             self.gone.add(neighbour)
         else:
             self._take_samples(neighbour, content)
 
+    def _greet(self) -> None:
+        """Say the newest again, to a neighbour that is back: it waits for us from now on, as we do for it."""
+        for sysid, sample in self._own.items():
+            self._publishers[sysid].put(encode(sample))
+
     def _take_samples(self, neighbour: int, payload: bytes) -> None:
         try:
             samples = decode(payload)
         except ValueError:
-            self.rejected += 1
+            self.rejected[neighbour] += 1
             return
         if any(sample.sysid != neighbour for sample in samples):
-            self.rejected += 1
+            self.rejected[neighbour] += 1
             return
         for sample in samples:
-            self._samples[neighbour][sample.tick] = sample
+            if sample.tick > self._gathered:  # one who is back may have to catch up
+                self._samples[neighbour][sample.tick] = sample
             self._newest[neighbour] = max(self._newest[neighbour], sample.tick)
 
     def _sample_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:

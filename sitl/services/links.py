@@ -15,7 +15,6 @@ from sitl.services.tcp_client import TcpClient
 
 LOOPBACK = "127.0.0.1"
 
-_TURN_S = 0.05
 _UDP_SILENCE_S = 30.0
 """A UDP peer that was not configured is dropped when nothing has been heard of it for so long."""
 
@@ -32,14 +31,11 @@ class Face(Protocol):
     def on_bytes(self, data: bytes, peer: Peer) -> None:
         """Someone has sent something."""
 
-    def on_tick(self) -> None:
-        """Time has passed."""
-
 
 class StationLinks:
     """Listens on TCP, sends to the configured stations over UDP, and answers whoever talks to its UDP port.
 
-    One thread runs `run` (or `poll`); `send` may be called from any thread and never blocks. `attach` comes first.
+    One thread calls `poll`; `send` may be called from any thread and never blocks. `attach` comes first.
 
     Args:
         tcp_port: port to listen on, 0 for a free one.
@@ -89,11 +85,9 @@ class StationLinks:
         if unfinished:
             self._wake()
 
-    def run(self, stopped: threading.Event) -> None:
-        """Serve until `stopped` is set (and `stop_waiting` called, to end at once)."""
-        while not stopped.is_set():
-            self.poll(_TURN_S)
-            self._face.on_tick()
+    def fileno(self) -> int:
+        """Of what becomes readable when there is something to `poll`: the sockets of many can be waited for as one."""
+        return self._selector.fileno()
 
     def stop_waiting(self) -> None:
         """Make a waiting `poll` return."""
@@ -115,7 +109,7 @@ class StationLinks:
         self._drop_silent_udp_peers()
 
     def close(self) -> None:
-        """Close every socket; `run` must have returned."""
+        """Close every socket; nobody polls any more."""
         self._selector.close()
         for client in self._clients.values():
             client.connection.close()

@@ -65,7 +65,7 @@ def station() -> Iterator[tuple[zenoh.Session, Clock]]:
     peers, station_peer = local_peers({4: []})
     clock = make_clock(held=True)
     with open_session(peers[4]) as vehicle, open_session(station_peer) as session:
-        serve_clock(vehicle, "test", 4, clock)
+        serve_clock(vehicle, "test", lambda: [4], clock)
         alive = vehicle.liveliness().declare_token(alive_key("test", 4))
         yield session, clock
         alive.undeclare()

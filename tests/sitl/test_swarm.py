@@ -7,16 +7,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from missions.errors import InputError
 from missions.scenario import Scenario
-from sitl.clock import Clock
-from sitl.endpoint import Ended, _serving
-from sitl.services.links import StationLinks
+from sitl.reports import Ended
 from sitl.swarm import Swarm, SwarmOptions
 
 OPTIONS = SwarmOptions(seed=1, delay_s=0.2)
@@ -53,7 +51,7 @@ def test_nine_start_answer_at_ports_of_their_own_and_end_as_told(vee: Scenario, 
 
 
 def test_an_endpoint_loads_no_numba_scipy_or_pydantic() -> None:
-    check = "import sys, sitl.endpoint; print({'numba', 'scipy', 'pydantic', 'matplotlib'} & set(sys.modules))"
+    check = "import sys, sitl.process; print({'numba', 'scipy', 'pydantic', 'matplotlib'} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", check], capture_output=True, text=True).stdout.strip() == "set()"
 
 
@@ -82,21 +80,6 @@ def test_an_endpoint_that_cannot_write_its_truth_says_why(vee: Scenario, tmp_pat
         wait_until(lambda: swarm.endpoints[5].obituary() is not None)
         assert swarm.endpoints[5].obituary() == "vehicle 5: [Errno 28] No space left on device"
         assert all(endpoint.obituary() is None for sysid, endpoint in swarm.endpoints.items() if sysid != 5)
-
-
-class BrokenFace:
-    """A face in which something goes wrong."""
-
-    def on_tick(self) -> None:
-        raise RuntimeError("broken")
-
-
-def test_an_error_in_the_mavlink_thread_ends_the_endpoint() -> None:
-    clock = Clock(held=True, speed=1.0, on_stop=lambda: None)
-    with closing(StationLinks()) as links:
-        links.attach(BrokenFace())
-        with pytest.raises(RuntimeError, match="broken"), _serving(links, clock):
-            assert not clock.wait_for(0)
 
 
 def test_a_killed_endpoints_socket_is_removed(vee: Scenario) -> None:
@@ -135,3 +118,57 @@ def test_endpoints_end_in_good_order_when_their_station_is_killed(tmp_path: Path
     station.stdout.close()
     wait_until(lambda: not any(alive(int(pid)) for pid in pids))
     wait_until(lambda: not Path(address.removeprefix("unixsock-stream/")).parent.exists())
+
+
+def test_a_vehicle_that_fails_is_named_and_those_in_its_process_fly_on(vee: Scenario, tmp_path: Path) -> None:
+    options = replace(OPTIONS, held=False, truth=tmp_path, count=3, per_process=3)
+    (tmp_path / "2.f64").symlink_to("/dev/full")
+    with Swarm(vee, options) as swarm:
+        assert len({endpoint.process.pid for endpoint in swarm.endpoints.values()}) == 1
+        failed = swarm.endpoints[2]
+        wait_until(lambda: failed.obituary() is not None)
+        assert failed.obituary() == "vehicle 2: [Errno 28] No space left on device"
+        size = (tmp_path / "1.f64").stat().st_size
+        wait_until(lambda: (tmp_path / "1.f64").stat().st_size > size + 100_000)
+        assert swarm.endpoints[1].obituary() is swarm.endpoints[3].obituary() is None
+        assert failed.ready is not None
+        port = failed.ready.tcp_port
+        wait_until(lambda: not listens(port))
+    assert isinstance(swarm.endpoints[3].last, Ended)
+
+
+def listens(port: int) -> bool:
+    try:
+        socket.create_connection(("127.0.0.1", port), timeout=5).close()
+    except ConnectionRefusedError:
+        return False
+    return True
+
+
+def test_one_that_cannot_start_is_named_among_those_of_its_process(vee: Scenario, tmp_path: Path) -> None:
+    (tmp_path / "2").mkdir()
+    (tmp_path / "2" / "parameters.json").write_bytes(b"not what was written")
+    with pytest.raises(InputError, match=r"^vehicle 2: .*/2/parameters\.json: damaged"):
+        Swarm(vee, replace(OPTIONS, count=3, per_process=3, memory=tmp_path))
+
+
+def test_a_killed_endpoint_can_be_started_again_where_the_others_are(vee: Scenario, tmp_path: Path) -> None:
+    with Swarm(vee, replace(OPTIONS, held=False, truth=tmp_path, count=3, memory=tmp_path)) as swarm:
+        victim = swarm.endpoints[2]
+        os.kill(victim.process.pid or 0, signal.SIGKILL)
+        wait_until(lambda: victim.obituary() is not None)
+        tick = 1_000_000
+        swarm.restart(2, tick)
+        assert swarm.endpoints[2].obituary() is None
+        size = (tmp_path / "1.f64").stat().st_size
+        wait_until(lambda: (tmp_path / "1.f64").stat().st_size > size + 100_000)
+        wait_until(lambda: (tmp_path / "2.f64").stat().st_size > 100_000)
+    ended = swarm.endpoints[2].last
+    assert isinstance(ended, Ended)
+    assert ended.tick > tick
+
+
+def test_vehicles_beyond_the_scenarios_fly_too(vee: Scenario) -> None:
+    with Swarm(vee, replace(OPTIONS, count=30, sysid_base=101, per_process=15)) as swarm:
+        assert list(swarm.endpoints) == list(range(101, 131))
+        assert len({endpoint.process.pid for endpoint in swarm.endpoints.values()}) == 2

@@ -7,7 +7,7 @@ from contextlib import ExitStack
 import pytest
 import zenoh
 
-from sitl.formation.correction import Correction
+from sitl.formation.correction import Correction, encode
 from sitl.formation.exchange import Exchange
 from sitl.zenoh_session import alive_key, correction_key, discard_sockets, local_peers, open_session
 
@@ -24,7 +24,7 @@ def pair() -> Iterator[tuple[dict[int, zenoh.Session], dict[int, Exchange]]]:
     peers, _ = local_peers({1: [2], 2: [1]})
     with ExitStack() as stack:
         sessions = {sysid: stack.enter_context(open_session(peer)) for sysid, peer in peers.items()}
-        exchanges = {sysid: Exchange(sessions[sysid], SWARM, sysid, [3 - sysid]) for sysid in peers}
+        exchanges = {sysid: Exchange(sessions[sysid], SWARM, {sysid: [3 - sysid]}) for sysid in peers}
         tokens = [sessions[sysid].liveliness().declare_token(alive_key(SWARM, sysid)) for sysid in peers]
         assert exchanges[1].wait_for_neighbours(10) == set()
         assert exchanges[2].wait_for_neighbours(10) == set()
@@ -89,19 +89,69 @@ def test_payloads_that_are_no_samples_are_counted_and_dropped(pair: Pair, payloa
     sessions[2].put(correction_key(SWARM, 2), payload, priority=zenoh.Priority.REAL_TIME)
     exchanges[2].publish(sample(2, 0), now=True)
     assert exchanges[1].gather(0) == {2: sample(2, 0)}
-    assert exchanges[1].rejected == 1
+    assert exchanges[1].rejected == {2: 1}
 
 
 def test_a_sample_in_anothers_name_is_dropped(pair: Pair) -> None:
-    _, exchanges = pair
-    exchanges[2].publish(sample(9, 0), now=True)
+    sessions, exchanges = pair
+    sessions[2].put(correction_key(SWARM, 2), encode(sample(9, 0)), priority=zenoh.Priority.REAL_TIME)
     exchanges[2].publish(sample(2, 0), now=True)
     assert exchanges[1].gather(0) == {2: sample(2, 0)}
-    assert exchanges[1].rejected == 1
+    assert exchanges[1].rejected == {2: 1}
 
 
 def test_missing_neighbours_are_named() -> None:
     peers, _ = local_peers({1: []})
     with open_session(peers[1]) as session:
-        assert Exchange(session, SWARM, 1, [2, 3]).wait_for_neighbours(0.1) == {2, 3}
+        assert Exchange(session, SWARM, {1: [2, 3]}).wait_for_neighbours(0.1) == {2, 3}
     discard_sockets(peers[1])
+
+
+def test_neighbours_in_one_process_hear_each_other_without_zenoh() -> None:
+    peers, _ = local_peers({1: []})
+    with open_session(peers[1]) as session:
+        together = Exchange(session, SWARM, {1: [2], 2: [1]})
+        assert together.neighbours == ()
+        assert together.wait_for_neighbours(0.0) == set()
+        for tick in range(3):
+            together.publish(sample(1, tick), now=False)
+            together.publish(sample(2, tick), now=False)
+        assert [together.gather(tick) for tick in range(3)] == [
+            {1: sample(1, tick), 2: sample(2, tick)} for tick in range(3)
+        ]
+    discard_sockets(peers[1])
+
+
+def test_who_comes_back_is_waited_for_again_and_hears_where_the_others_are() -> None:
+    peers, _ = local_peers({1: [2], 2: [1]})
+    with open_session(peers[1]) as session:
+        stayed = Exchange(session, SWARM, {1: [2]})
+        token = session.liveliness().declare_token(alive_key(SWARM, 1))
+        with open_session(peers[2]) as first_life:
+            first_token = first_life.liveliness().declare_token(alive_key(SWARM, 2))
+            assert stayed.wait_for_neighbours(10) == set()
+            first_token.undeclare()
+            stayed.publish(sample(1, 100), now=True)
+            assert stayed.gather(95) == {}
+        heard: list[dict[int, Correction]] = []
+        waiting = threading.Thread(target=lambda: heard.append(heard_on_return(stayed, 99)))
+        waiting.start()
+        with open_session(peers[2]) as second_life:
+            back = Exchange(second_life, SWARM, {2: [1]})
+            second_token = second_life.liveliness().declare_token(alive_key(SWARM, 2))
+            assert back.wait_for_neighbours(10) == set()
+            assert back.gather(94) == {}, "it is told where the other is, instead of waiting for what is over"
+            back.publish(sample(2, 99), now=True)
+            waiting.join(10)
+            assert heard == [{2: sample(2, 99)}]
+            second_token.undeclare()
+        token.undeclare()
+    for peer in peers.values():
+        discard_sockets(peer)
+
+
+def heard_on_return(exchange: Exchange, tick: int) -> dict[int, Correction]:
+    """What a vehicle hears of a tick that has flown on alone and finds its neighbour back."""
+    while exchange.gone:
+        exchange.gather(tick - 1)
+    return exchange.gather(tick)

@@ -1,0 +1,139 @@
+"""One process of endpoints: opens everything, flies tick by tick, closes everything."""
+
+import contextlib
+import math
+import os
+import signal
+from collections.abc import Iterator
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+
+import zenoh
+
+from missions.errors import InputError
+from sitl.clock import Clock, serve_clock
+from sitl.crew import Crew, reason
+from sitl.ending import Ending
+from sitl.endpoint import Endpoint, EndpointConfig
+from sitl.formation.exchange import Exchange
+from sitl.reports import Ended, Failed, Ready
+from sitl.serving import serving
+from sitl.zenoh_session import Peer, alive_key, discard_sockets, open_session
+
+NEIGHBOURS_TIMEOUT_S = 30.0
+
+
+@dataclass(frozen=True)
+class ProcessConfig:
+    """One process.
+
+    Attributes:
+        endpoints: of its vehicles; their corrections have one delay, and they begin at one tick.
+        swarm: the name in the swarm's Zenoh keys.
+        peer: where its Zenoh session listens and connects.
+        held: whether its clock starts held.
+        speed: factor of its clock; infinite for as fast as it goes.
+    """
+
+    endpoints: tuple[EndpointConfig, ...]
+    swarm: str
+    peer: Peer
+    held: bool
+    speed: float = math.inf
+
+
+def run_process(config: ProcessConfig, reports: Connection) -> None:
+    """Fly vehicles until their clock is stopped, they are told to terminate, or who started them has gone."""
+    for name in ("SIGINT", "SIGHUP"):  # Ctrl-C and a closed terminal hit the whole group; the station stops us
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_IGN)
+
+    def end_at_once() -> None:
+        discard_sockets(config.peer)
+        os._exit(1)
+
+    ending = Ending(end_at_once)
+    try:
+        _serve(config, reports, ending)
+    except Exception as error:  # whatever it was, the station is to know why it lost its vehicles
+        sysids = [endpoint.vehicle.sysid for endpoint in config.endpoints]
+        why = str(error) if isinstance(error, _NotOpenedError) else reason(sysids[0], error)
+        with contextlib.suppress(OSError):
+            for sysid in sysids:
+                reports.send(Failed(sysid, why))
+    discard_sockets(config.peer)
+
+
+class _NotOpenedError(Exception):
+    """An endpoint could not be opened; the message names it."""
+
+
+def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
+    with open_session(config.peer) as session:
+        endpoints = list(_opened(config.endpoints))
+        exchange = Exchange(session, config.swarm, {endpoint.sysid: endpoint.neighbours for endpoint in endpoints})
+        clock = Clock(held=config.held, speed=config.speed, on_stop=exchange.stop)
+        ending.stop = clock.stop
+        alive: dict[int, zenoh.LivelinessToken] = {}
+
+        def on_left(sysid: int, flying: int) -> None:
+            alive[sysid].undeclare()
+            if not flying:
+                clock.stop()
+
+        crew = Crew(endpoints, reports, on_left)
+        serve_clock(session, config.swarm, lambda: crew.flying, clock)
+        for endpoint in endpoints:
+            alive[endpoint.sysid] = session.liveliness().declare_token(alive_key(config.swarm, endpoint.sysid))
+        if missing := exchange.wait_for_neighbours(NEIGHBOURS_TIMEOUT_S):
+            raise InputError(f"heard nothing of vehicles {sorted(missing)} over Zenoh")
+
+        with serving(crew):
+            for endpoint in endpoints:
+                crew.report(Ready(endpoint.sysid, endpoint.links.tcp_port, endpoint.links.udp_port))
+            _fly(crew, exchange, clock, config.endpoints[0])
+        for endpoint in endpoints:
+            try:
+                endpoint.close()
+            except OSError as error:
+                crew.leave(endpoint, error)
+        for endpoint in crew.flying.values():
+            alive[endpoint.sysid].undeclare()
+            rejected = sum(exchange.rejected[neighbour] for neighbour in endpoint.neighbours)
+            crew.report(Ended(endpoint.sysid, endpoint.tick, rejected))
+
+
+def _opened(configs: tuple[EndpointConfig, ...]) -> Iterator[Endpoint]:
+    for config in configs:
+        try:
+            yield Endpoint(config)
+        except Exception as error:
+            raise _NotOpenedError(reason(config.vehicle.sysid, error)) from error
+
+
+def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) -> None:
+    """Tick by tick until the clock is stopped."""
+    tick, delay_ticks = first.start_tick, first.vehicle.delay_ticks
+    everyone, lost = crew.flying.keys(), set[int]()
+    while clock.wait_for(tick):
+        # A neighbour needs a sample only `delay_ticks` later: as fast as it goes, that many share a message. The first
+        # goes at once, since after a restart the neighbours wait for it.
+        publish_now = clock.paced or (tick + 1) % delay_ticks == 0 or tick == first.start_tick
+        for endpoint in crew.flying.values():
+            try:
+                exchange.publish(endpoint.observe(), now=publish_now)
+            except Exception as error:
+                crew.leave(endpoint, error)
+        heard = exchange.gather(tick - delay_ticks)
+        if clock.stopped:
+            return
+        now_lost = exchange.gone | (everyone - crew.flying.keys())
+        for endpoint in crew.flying.values():
+            try:
+                if now_lost != lost:
+                    endpoint.notice(now_lost - lost, lost - now_lost)
+                endpoint.advance(heard)
+            except Exception as error:
+                crew.leave(endpoint, error)
+        lost = now_lost
+        tick += 1

@@ -1,0 +1,32 @@
+"""What a process of endpoints reports to who started it, each of one vehicle."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Ready:
+    """First report of a vehicle: it answers at these ports."""
+
+    sysid: int
+    tcp_port: int
+    udp_port: int
+
+
+@dataclass(frozen=True)
+class Ended:
+    """Last report of a vehicle whose clock was stopped: at which tick, and how many messages were no samples."""
+
+    sysid: int
+    tick: int
+    rejected_samples: int
+
+
+@dataclass(frozen=True)
+class Failed:
+    """Last report of a vehicle that cannot go on, and why."""
+
+    sysid: int
+    reason: str
+
+
+Report = Ready | Ended | Failed
