@@ -152,20 +152,23 @@ def test_one_that_cannot_start_is_named_among_those_of_its_process(vee: Scenario
         Swarm(vee, replace(OPTIONS, count=3, per_process=3, memory=tmp_path))
 
 
-def test_a_killed_endpoint_can_be_started_again_where_the_others_are(vee: Scenario, tmp_path: Path) -> None:
+def test_a_killed_endpoint_can_be_started_again_and_catches_up_with_the_others(vee: Scenario, tmp_path: Path) -> None:
     with Swarm(vee, replace(OPTIONS, held=False, truth=tmp_path, count=3, memory=tmp_path)) as swarm:
         victim = swarm.endpoints[2]
         os.kill(victim.process.pid or 0, signal.SIGKILL)
         wait_until(lambda: victim.obituary() is not None)
-        tick = 1_000_000
-        swarm.restart(2, tick)
+        start = ticks_flown(tmp_path / "1.f64")
+        swarm.restart(2, start)
         assert swarm.endpoints[2].obituary() is None
-        size = (tmp_path / "1.f64").stat().st_size
-        wait_until(lambda: (tmp_path / "1.f64").stat().st_size > size + 100_000)
-        wait_until(lambda: (tmp_path / "2.f64").stat().st_size > 100_000)
-    ended = swarm.endpoints[2].last
-    assert isinstance(ended, Ended)
-    assert ended.tick > tick
+        met = ticks_flown(tmp_path / "1.f64") + 10_000
+        wait_until(lambda: start + ticks_flown(tmp_path / "2.f64") > met)
+    ends = [endpoint.last.tick for endpoint in swarm.endpoints.values() if isinstance(endpoint.last, Ended)]
+    assert len(ends) == 3
+    assert max(ends) - min(ends) <= 5 * 5, "in lockstep again"
+
+
+def ticks_flown(truth: Path) -> int:
+    return truth.stat().st_size // 48
 
 
 def test_vehicles_beyond_the_scenarios_fly_too(vee: Scenario) -> None:
