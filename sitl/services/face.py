@@ -18,12 +18,15 @@ from sitl.services.peer import Message, Peer
 from sitl.services.signing import Signing, Verdict
 from sitl.services.signing_server import SigningServer
 from sitl.services.status_text import status_text_messages
+from sitl.services.stream_messages.streams import picture
 from sitl.services.stream_messages.view import View
 from sitl.services.telemetry import Telemetry
 from sitl.services.vehicle import Vehicle
 from sitl.snapshot import Snapshot
 
 _HEARTBEAT_PERIOD_S = 1.0
+_NEWS_PERIOD_S = 0.2
+"""A change that no message from a station brought about is told so late at most."""
 _AUTOPILOT = mavlink.MAV_COMP_ID_AUTOPILOT1
 _LAST_TEXT_ID = 0xFFFF
 
@@ -64,7 +67,7 @@ class MavlinkFace:
         self._codecs: dict[Peer, Codec] = {}
         self._outbox: dict[Peer, bytearray] = {}
         self._greeted: set[Peer] = set()
-        self._heartbeat_at_s = now()
+        self._heartbeat_at_s = self._news_at_s = now()
         self._text_id = 0
         self.rejected = 0
         self._signing = signing or Signing()
@@ -106,6 +109,7 @@ class MavlinkFace:
                     self._on_message(message, peer)
                 else:
                     self.rejected += 1
+            self._news_at_s = self._now()
             self._flush()
 
     def on_tick(self) -> None:
@@ -114,16 +118,17 @@ class MavlinkFace:
             now_s = self._now()
             self._vehicle.watch_station(now_s)
             self._take_name()
-            view = self._view()
             if now_s >= self._heartbeat_at_s:
                 self._heartbeat_at_s = now_s + _HEARTBEAT_PERIOD_S
-                self._broadcast(heartbeat(view.snapshot))
+                self._broadcast(heartbeat(self._vehicle.snapshot()))
             self._missions.on_tick()
             self._parameters.on_tick()
             self._keys.on_tick()
             self._tell_events()
-            for message in self._news.of(view):
-                self._broadcast(message)
+            if now_s >= self._news_at_s:
+                self._news_at_s = now_s + _NEWS_PERIOD_S
+                for message in self._news.of(self._view()):
+                    self._broadcast(message)
             self._flush()
 
     def wants(self, time_s: float) -> bool:
@@ -160,13 +165,18 @@ class MavlinkFace:
                 self._keys.on_message(message)
 
     def _on_heartbeat(self, message: Message, peer: Peer) -> None:
-        """A station is there. All are obeyed; MAV_GCS_SYSID is whose silence counts."""
+        """A station is there. All are obeyed; MAV_GCS_SYSID is whose silence counts.
+
+        One that is new here is shown everything at once: with the clock held, nothing falls due.
+        """
         if message.type != mavlink.MAV_TYPE_GCS:
             return
         if message.get_srcSystem() == self._vehicle.parameters["MAV_GCS_SYSID"]:
             self._vehicle.hear_station(self._now())
         if peer not in self._greeted:
             self._greeted.add(peer)
+            for shown in picture(self._view()):
+                self._reply(shown, peer)
             if (damage := self._vehicle.parameters.damage) is not None:
                 self._report(StatusText(mavlink.MAV_SEVERITY_WARNING, damage))
 

@@ -45,7 +45,7 @@ class Telemetry:
         built: dict[int, tuple[Message, ...]] = {}
         for message_id in {message_id for _, due in wanted for message_id in due}:
             stream = STREAMS[message_id]
-            built[message_id] = stream.messages(state) if stream.when is None or stream.when(state) else ()
+            built[message_id] = stream.messages(state) if stream.worthwhile(state) else ()
         return [(to, [message for message_id in due for message in built[message_id]]) for to, due in wanted]
 
     def interval_us(self, peer: Peer, message_id: float) -> int | None:

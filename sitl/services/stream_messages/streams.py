@@ -58,6 +58,10 @@ class Stream:
     group: int = 0
     when: Callable[[View], bool] | None = None
 
+    def worthwhile(self, view: View) -> bool:
+        """Whether to send it without being asked."""
+        return self.when is None or self.when(view)
+
     def messages(self, view: View) -> tuple[Message, ...]:
         """What there is to send."""
         built = self.build(view)
@@ -92,3 +96,9 @@ STREAMS: dict[int, Stream] = {
     mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: Stream(gps_global_origin, OFF_US),
 }
 """By message id."""
+
+
+def picture(view: View) -> list[Message]:
+    """One of everything that is streamed by default."""
+    shown = [stream for stream in STREAMS.values() if stream.interval_us != OFF_US and stream.worthwhile(view)]
+    return [message for stream in shown for message in stream.messages(view)]

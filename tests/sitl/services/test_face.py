@@ -126,6 +126,14 @@ def test_damage_to_its_memory_is_told_once_to_each_station_that_says_hello(bench
     store = Store()
     store.write("parameters.json", b"garbage")
     bench.vehicle.parameters.damage = Parameters([], store).damage
-    first = bench.tell(gcs_heartbeat())
-    assert "defaults" in first[0].text
+    texts = [message.text for message in bench.tell(gcs_heartbeat()) if message.get_type() == "STATUSTEXT"]
+    assert "defaults" in "".join(texts)
     assert bench.tell(gcs_heartbeat()) == []
+
+
+def test_a_station_that_says_hello_is_shown_everything_though_no_time_passes(bench: Any) -> None:
+    shown = set(kinds(bench.tell(gcs_heartbeat())))
+    assert {"ATTITUDE", "HOME_POSITION", "MISSION_CURRENT", "CURRENT_MODE", "SYS_STATUS"} < shown
+    assert not shown & {"GPS_GLOBAL_ORIGIN", "FENCE_STATUS", "NAMED_VALUE_FLOAT"}
+    bench.heard(bench.other)
+    assert bench.tell(gcs_heartbeat()) == bench.heard(bench.other) == []
