@@ -147,8 +147,8 @@ def listens(port: int) -> bool:
 
 def test_one_that_cannot_start_is_named_among_those_of_its_process(vee: Scenario, tmp_path: Path) -> None:
     (tmp_path / "2").mkdir()
-    (tmp_path / "2" / "parameters.json").write_bytes(b"not what was written")
-    with pytest.raises(InputError, match=r"^vehicle 2: .*/2/parameters\.json: damaged"):
+    (tmp_path / "2" / "signing").write_bytes(b"not what was written")
+    with pytest.raises(InputError, match=r"^vehicle 2: .*/2/signing: damaged"):
         Swarm(vee, replace(OPTIONS, count=3, per_process=3, memory=tmp_path))
 
 
