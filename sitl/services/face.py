@@ -203,8 +203,8 @@ class MavlinkFace:
         return self._view_of(self._vehicle.snapshot())
 
     def _view_of(self, snapshot: Snapshot) -> View:
-        vehicle, plan_ids = self._vehicle, (self._missions.opaque_id, 0, 0)
-        return View(snapshot, self._frame, vehicle.home, vehicle.mission, plan_ids, self._epoch_s)
+        vehicle = self._vehicle
+        return View(snapshot, self._frame, vehicle.home, vehicle.mission, self._missions.plan_ids, self._epoch_s)
 
     def _report(self, status: StatusText) -> None:
         self._text_id = self._text_id % _LAST_TEXT_ID + 1

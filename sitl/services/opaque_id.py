@@ -7,26 +7,31 @@ a reader that does not know the fields skips them.
 
 import struct
 import zlib
+from collections.abc import Iterable
+from itertools import islice
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from missions.mission import Mission
+from missions.mission import MissionItem
+from missions.plan_type import PlanType
 from sitl.services.peer import Message
 
 _ACK = struct.Struct("<BBBBI")
 _COUNT = struct.Struct("<HBBBI")
 _CURRENT = struct.Struct("<HHBBIII")
 _ITEM = struct.Struct("<HB?4fiif")
+_MAGIC_V2 = 0xFD
 _HEADER_V2 = 10
 
 
-def opaque_id(mission: Mission) -> int:
-    """CRC-32 of the items after home; 0 for a mission that has none."""
-    crc = 0
-    for item in mission.items[1:]:
+def opaque_id(plan: PlanType, items: Iterable[MissionItem]) -> int:
+    """CRC-32 of a plan's items, home left out; 0 for a plan that has none."""
+    crc = count = 0
+    for item in islice(items, int(plan == PlanType.MISSION), None):
         fields = (item.command, item.frame, item.autocontinue, *item.params, item.lat_e7, item.lon_e7, item.alt_m)
         crc = zlib.crc32(_ITEM.pack(*fields), crc)
-    return crc or int(len(mission) > 1)
+        count += 1
+    return crc or int(count > 0)
 
 
 class MissionAck(mavlink.MAVLink_mission_ack_message):  # type: ignore[misc]
@@ -56,30 +61,32 @@ class MissionCount(mavlink.MAVLink_mission_count_message):  # type: ignore[misc]
 
 
 class MissionCurrent(mavlink.MAVLink_mission_current_message):  # type: ignore[misc]
-    """MISSION_CURRENT with mission_id; there are no fences and no rally points, so their ids are 0."""
+    """MISSION_CURRENT with mission_id, fence_id and rally_points_id."""
 
-    def __init__(self, seq: int, total: int, mission_state: int, mission_mode: int, plan_id: int) -> None:
+    def __init__(
+        self, seq: int, total: int, mission_state: int, mission_mode: int, plan_ids: tuple[int, int, int]
+    ) -> None:
         super().__init__(seq, total, mission_state, mission_mode)
-        self.opaque_id = plan_id
+        self.opaque_ids = plan_ids
 
     def pack(self, mav: Message, force_mavlink1: bool = False) -> bytes:
         """The frame, extensions included."""
-        payload = _CURRENT.pack(self.seq, self.total, self.mission_state, self.mission_mode, self.opaque_id, 0, 0)
+        payload = _CURRENT.pack(self.seq, self.total, self.mission_state, self.mission_mode, *self.opaque_ids)
         return bytes(self._pack(mav, self.crc_extra, payload, force_mavlink1))
 
 
-_LAYOUTS = {
-    mavlink.MAVLINK_MSG_ID_MISSION_ACK: (_ACK, 4),
-    mavlink.MAVLINK_MSG_ID_MISSION_COUNT: (_COUNT, 4),
-    mavlink.MAVLINK_MSG_ID_MISSION_CURRENT: (_CURRENT, 4),
-}
-
-
 def received_opaque_id(message: Message) -> int:
-    """The id in a received MISSION_ACK, MISSION_COUNT or MISSION_CURRENT; 0 when its sender gives none."""
-    layout, index = _LAYOUTS[message.get_msgId()]
+    """The id in a received MISSION_ACK or MISSION_COUNT; 0 when its sender gives none."""
+    return int(_received(message, _ACK if message.get_type() == "MISSION_ACK" else _COUNT)[-1])
+
+
+def received_opaque_ids(message: Message) -> tuple[int, int, int]:
+    """The ids of mission, fence and rally points in a received MISSION_CURRENT; 0 for what its sender does not give."""
+    mission_id, fence_id, rally_id = _received(message, _CURRENT)[-3:]
+    return int(mission_id), int(fence_id), int(rally_id)
+
+
+def _received(message: Message, layout: struct.Struct) -> tuple[int, ...]:
     frame = message.get_msgbuf()
-    if frame[0] != 0xFD:
-        return 0
-    payload = bytes(frame[_HEADER_V2 : _HEADER_V2 + frame[1]])
-    return int(layout.unpack(payload[: layout.size].ljust(layout.size, b"\0"))[index])
+    payload = bytes(frame[_HEADER_V2 : _HEADER_V2 + frame[1]]) if frame[0] == _MAGIC_V2 else b""
+    return layout.unpack(payload[: layout.size].ljust(layout.size, b"\0"))

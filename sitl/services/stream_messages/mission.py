@@ -16,7 +16,7 @@ def mission_current(view: View) -> Message:
     now = view.snapshot
     total = len(view.mission) - 1 or _NO_MISSION
     mode = _IN_MISSION_MODE if now.mode == Mode.AUTO else _NOT_IN_MISSION_MODE
-    return MissionCurrent(now.current_seq, total, _mission_state(view), mode, view.plan_ids[0])
+    return MissionCurrent(now.current_seq, total, _mission_state(view), mode, view.plan_ids)
 
 
 def _mission_state(view: View) -> int:

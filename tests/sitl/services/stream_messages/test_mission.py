@@ -20,7 +20,7 @@ from sitl.services.stream_messages.mission import mission_current
 )
 def test_the_missions_state(view: Any, changes: dict[str, Any], state: int, mode: int) -> None:
     message = mission_current(view(**changes))
-    assert (message.seq, message.total, message.opaque_id) == (1, 4, 77)
+    assert (message.seq, message.total, message.opaque_ids) == (1, 4, (77, 0, 0))
     assert (message.mission_state, message.mission_mode) == (state, mode)
 
 
