@@ -23,6 +23,7 @@ from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
 from sitl.services.signing import Signing
+from sitl.serving import TURN_S
 from sitl.ticks import TICK_S
 
 Serve = Callable[..., StationLinks]
@@ -41,7 +42,13 @@ def serve(frame: LocalFrame) -> Iterator[Serve]:
             face = MavlinkFace(vehicle, frame, links.send, time.monotonic, signing)
             links.attach(face)
             stopped = threading.Event()
-            thread = threading.Thread(target=links.run, args=(stopped,))
+
+            def run() -> None:
+                while not stopped.is_set():
+                    links.poll(TURN_S)
+                    face.on_tick()
+
+            thread = threading.Thread(target=run)
 
             def stop() -> None:
                 stopped.set()
