@@ -26,7 +26,9 @@ from sitl.services.peer import Message
 VEHICLES_A_FLEET = 250
 _SEQUENCE = 256
 """Sequence numbers there are: so many frames are packed beforehand, and sent again and again."""
-_DRAIN_S = 0.5
+_PATIENCE_S = 1.0
+"""What has not come so long after the last frame was sent is lost."""
+_LOOK_S = 0.01
 
 
 @dataclass(frozen=True)
@@ -95,14 +97,16 @@ async def listen(load: Load, logs: Path | None = None) -> Listened:
             before_s, began_s = _processor_s(), time.monotonic()
             ours.send(None)
             sent: int = await asyncio.to_thread(ours.recv)
-            await asyncio.sleep(_DRAIN_S)
-            seconds, core_s = time.monotonic() - began_s - _DRAIN_S, _processor_s() - before_s
+            deadline_s = time.monotonic() + _PATIENCE_S
+            while _frames(fleets) < sent and time.monotonic() < deadline_s:
+                await asyncio.sleep(_LOOK_S)
+            seconds, core_s = time.monotonic() - began_s, _processor_s() - before_s
         finally:
             sender.terminate()
             await asyncio.to_thread(sender.join)
         vehicles = [vehicle for fleet in fleets for vehicle in fleet.vehicles.values()]
-        received, lost = sum(one.frames for one in vehicles), sum(one.lost_frames for one in vehicles)
-        return Listened(sent, received, lost, len(vehicles), seconds, core_s / seconds)
+        lost = sum(one.lost_frames for one in vehicles)
+        return Listened(sent, _frames(fleets), lost, len(vehicles), seconds, core_s / seconds)
 
 
 def _logs_in(folder: Path | None, number: int) -> "_OpenLog | None":
@@ -118,6 +122,10 @@ class _OpenLog:
 
     def __call__(self, sysid: int) -> TelemetryLog:
         return TelemetryLog(self.folder / f"{self.number}-{sysid}.tlog", time.time())
+
+
+def _frames(fleets: Sequence[Fleet]) -> int:
+    return sum(vehicle.frames for fleet in fleets for vehicle in fleet.vehicles.values())
 
 
 def _processor_s() -> float:
