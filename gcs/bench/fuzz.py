@@ -90,7 +90,7 @@ def fuzz_station(pieces: int, seed: int) -> Fuzzed:
         own = number % 3 and len(piece) > _SYSID_AT
         address = piece[_SYSID_AT] if own else number % _ADDRESSES
         links[number % 4 == 0].on_bytes(piece, Peer("udp", "127.0.0.1", address))
-        if number % 1000 == 0:
+        if number % 5000 == 0:
             fleet.complaints()
             for vehicle in fleet.vehicles.values():
                 vehicle.send(station.heartbeat())
