@@ -105,8 +105,8 @@ async def fly(
         events, lost = await _fly_held(scenario, plan, swarm, fleet, display)
         flight_wall_s = time.monotonic() - began
 
-    if missing := sum(vehicle.lost_frames for vehicle in vehicles):
-        announce(f"{missing} telemetry frames were lost on the way: logs and live table lack them")
+    for line in fleet.complaints():
+        announce(line)
     flight_sim_s = max(vehicle.simulated_ms for vehicle in vehicles) / 1000.0
     return FlightRecord(
         seed=plan.seed,

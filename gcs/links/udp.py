@@ -12,6 +12,10 @@ _RECEIVE_BUFFER_BYTES = 8 * 1024 * 1024
 _LARGEST_DATAGRAM = 65536
 _PER_TURN = 256
 """Datagrams taken at most before others get their turn of the loop."""
+_WINDOW_S = 0.5
+_DENSE = 1000
+"""Datagrams in a window from which on it pays to look for them now and then, rather than to be woken by each."""
+_LOOK_PERIOD_S = 0.002
 
 
 class UdpLink:
@@ -38,7 +42,12 @@ class UdpLink:
         self.greeted: tuple[Peer, ...] = () if target is None else (target,)
         self.port = int(sock.getsockname()[1])
         self._socket = sock
-        asyncio.get_running_loop().add_reader(sock, self._receive)
+        self._loop = asyncio.get_running_loop()
+        self._look: asyncio.TimerHandle | None = None
+        self._window_ends_s = self._loop.time() + _WINDOW_S
+        self._in_window = 0
+        self._dense = False
+        self._loop.add_reader(sock, self._on_readable)
 
     @classmethod
     async def open(cls, port: int = 0, host: str = "127.0.0.1") -> "UdpLink":
@@ -75,19 +84,42 @@ class UdpLink:
 
     async def close(self) -> None:
         """Close the port."""
-        asyncio.get_running_loop().remove_reader(self._socket)
+        self._loop.remove_reader(self._socket)
+        if self._look is not None:
+            self._look.cancel()
         self._socket.close()
 
-    def _receive(self) -> None:
+    def _on_readable(self) -> None:
+        """Take what is there; when it comes thick and fast, stop being woken and look from time to time."""
+        if self._receive():
+            self._loop.remove_reader(self._socket)
+            self._look = self._loop.call_later(_LOOK_PERIOD_S, self._on_look)
+
+    def _on_look(self) -> None:
+        """Take what is there; when it has become quiet, be woken again."""
+        if self._receive():
+            self._look = self._loop.call_later(_LOOK_PERIOD_S, self._on_look)
+        else:
+            self._look = None
+            self._loop.add_reader(self._socket, self._on_readable)
+
+    def _receive(self) -> bool:
+        """Take what is there, up to a turn's worth; whether the last window was dense."""
         receive, on_bytes = self._socket.recvfrom, self.on_bytes
         for _ in range(_PER_TURN):
             try:
                 data, (host, port) = receive(_LARGEST_DATAGRAM)
             except BlockingIOError:
-                return
+                break
             except OSError:  # an earlier datagram was refused by its receiver; telemetry is lossy anyway
                 continue
+            self._in_window += 1
             on_bytes(data, Peer("udp", host, port))
+        if self._loop.time() >= self._window_ends_s:
+            self._dense = self._in_window >= _DENSE
+            self._in_window = 0
+            self._window_ends_s = self._loop.time() + _WINDOW_S
+        return self._dense
 
 
 def _socket() -> socket.socket:

@@ -15,8 +15,13 @@ from sitl.services.tcp_client import TcpClient
 
 LOOPBACK = "127.0.0.1"
 
+_DATAGRAMS_A_TURN = 64
 _UDP_SILENCE_S = 30.0
 """A UDP peer that was not configured is dropped when nothing has been heard of it for so long."""
+MOST_STRANGERS = 32
+"""UDP peers that were not configured, and TCP clients: so many of each at a time."""
+_PATIENCE_S = 3.0
+"""When there are as many, one that has been silent for so long makes room: a station's heart beats faster."""
 
 
 class Face(Protocol):
@@ -36,6 +41,9 @@ class StationLinks:
     """Listens on TCP, sends to the configured stations over UDP, and answers whoever talks to its UDP port.
 
     One thread calls `poll`; `send` may be called from any thread and never blocks. `attach` comes first.
+
+    Attributes:
+        refused: datagrams and connections that there was no room for.
 
     Args:
         tcp_port: port to listen on, 0 for a free one.
@@ -61,6 +69,7 @@ class StationLinks:
         self._clients: dict[Peer, TcpClient] = {}
         self._stations = frozenset(Peer("udp", *station) for station in stations)
         self._heard_at_s: dict[Peer, float] = {}
+        self.refused = 0
         self.tcp_port = int(self._listener.getsockname()[1])
         self.udp_port = int(self._udp.getsockname()[1])
 
@@ -125,6 +134,10 @@ class StationLinks:
             connection, (host, port) = self._listener.accept()
         except OSError:  # gone again before it was accepted
             return
+        if len(self._clients) >= MOST_STRANGERS:
+            connection.close()
+            self.refused += 1
+            return
         connection.setblocking(False)
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         peer = Peer("tcp", host, port)
@@ -134,14 +147,30 @@ class StationLinks:
         self._face.add_peer(peer)
 
     def _receive_udp(self) -> None:
-        try:
-            data, address = self._udp.recvfrom(65536)
-        except OSError:  # nothing after all, or an earlier datagram was refused
-            return
-        peer = Peer("udp", *address)
-        if peer not in self._stations:
-            self._heard_at_s[peer] = time.monotonic()
-        self._face.on_bytes(data, peer)
+        for _ in range(_DATAGRAMS_A_TURN):
+            try:
+                data, address = self._udp.recvfrom(65536)
+            except BlockingIOError:
+                return
+            except OSError:  # an earlier datagram was refused by its receiver
+                continue
+            peer = Peer("udp", *address)
+            if peer in self._stations or self._has_room_for(peer):
+                self._face.on_bytes(data, peer)
+            else:
+                self.refused += 1
+
+    def _has_room_for(self, peer: Peer) -> bool:
+        """Whether a UDP peer that was not configured may be heard: no number of ports costs memory or evicts anyone."""
+        now_s = time.monotonic()
+        if peer not in self._heard_at_s and len(self._heard_at_s) >= MOST_STRANGERS:
+            oldest = min(self._heard_at_s, key=self._heard_at_s.__getitem__)
+            if now_s - self._heard_at_s[oldest] < _PATIENCE_S:
+                return False
+            del self._heard_at_s[oldest]
+            self._face.remove_peer(oldest)
+        self._heard_at_s[peer] = now_s
+        return True
 
     def _serve_client(self, peer: Peer, events: int) -> None:
         client = self._clients[peer]

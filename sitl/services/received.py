@@ -127,7 +127,10 @@ class Received:
         time_at = self._kind.time_at
         if time_at is None:
             return default
-        return int.from_bytes(self._payload()[time_at : time_at + 4], "little")
+        frame = self._frame
+        start = HEADER_V2_BYTES if frame[0] == MAGIC_V2 else HEADER_V1_BYTES
+        at = start + time_at
+        return int.from_bytes(frame[at : min(at + 4, start + frame[1])], "little")
 
     def _payload(self) -> bytes:
         start = HEADER_V2_BYTES if self._frame[0] == MAGIC_V2 else HEADER_V1_BYTES

@@ -152,3 +152,55 @@ def test_ports_that_cannot_be_had_are_named() -> None:
             await TcpLink.connect(LOOPBACK, 1)
 
     run(main())
+
+
+def test_a_vehicle_on_two_links_is_heard_once_and_kept_when_one_is_cut(
+    make_vehicle: Any, make_mission: Any, serve: Any
+) -> None:
+    vehicle = make_vehicle(4)
+    news: list[str] = []
+
+    async def main() -> None:
+        udp = await UdpLink.open()
+        links = serve(vehicle, (LOOPBACK, udp.port))
+        tcp = await TcpLink.connect(LOOPBACK, links.tcp_port)
+        async with Fleet(announce=news.append) as fleet:
+            fleet.attach(tcp)
+            (found,) = await fleet.wait_for([4], PATIENCE_S)
+            fleet.attach(udp)
+            assert await upload_and_verify(found, make_mission(9)) == 9
+            while not fleet._routes[4].standby:
+                await asyncio.sleep(0.01)
+            assert found.peer == tcp.peer
+            await tcp.close()
+            tcp.on_lost(tcp.peer)
+            async with asyncio.timeout(PATIENCE_S):
+                while found.peer == tcp.peer:
+                    await asyncio.sleep(0.01)
+            assert found.peer.port == links.udp_port
+            assert await upload_and_verify(found, make_mission(12)) == 12
+            assert fleet.complaints() == []
+
+    run(main())
+    assert news[0] == f"tcp {LOOPBACK}:{news[0].split(':')[1]}: connection lost"
+    assert news[1].startswith("vehicle 4: now heard over udp")
+
+
+def test_nothing_is_lost_when_a_connection_breaks_and_comes_back(make_vehicle: Any, serve: Any) -> None:
+    links = serve(make_vehicle(4))
+    news: list[str] = []
+
+    async def main() -> None:
+        link = await TcpLink.connect(LOOPBACK, links.tcp_port)
+        async with Fleet(announce=news.append) as fleet:
+            fleet.attach(link)
+            (found,) = await fleet.wait_for([4], PATIENCE_S)
+            assert link._transport is not None
+            link._transport.abort()
+            async with asyncio.timeout(PATIENCE_S):
+                while len(news) < 2:
+                    await asyncio.sleep(0.01)
+            await set_mode(found, Mode.LOITER)
+
+    run(main())
+    assert [line.rpartition(": ")[2] for line in news] == ["connection lost", "connected"]

@@ -4,6 +4,7 @@ import asyncio
 import socket
 from typing import Any
 
+from gcs.links import udp
 from gcs.links.udp import UdpLink
 from sitl.services.peer import Peer
 
@@ -79,6 +80,31 @@ def test_a_vehicle_that_is_not_there_yet_is_no_error(listen: Any) -> None:
             vehicle.bind(address)
             vehicle.sendto(b"here", (LOOPBACK, link.port))
             await listener.until(lambda: listener.received)
+        await link.close()
+
+    asyncio.run(main())
+
+
+def test_dense_traffic_is_looked_for_now_and_then_until_it_is_quiet(listen: Any, monkeypatch: Any) -> None:
+    monkeypatch.setattr(udp, "_DENSE", 3)
+    monkeypatch.setattr(udp, "_WINDOW_S", 0.0)
+
+    async def main() -> None:
+        link = await UdpLink.open()
+        listener = listen(link)
+        with socket.socket(type=socket.SOCK_DGRAM) as sender:
+            sender.connect((LOOPBACK, link.port))
+            peer = Peer("udp", *sender.getsockname())
+            for turn in range(1, 4):
+                for _ in range(20):
+                    sender.send(b"x")
+                await listener.until(lambda turn=turn: listener.received.get(peer) == b"x" * 20 * turn)
+                assert link._look is not None
+            async with asyncio.timeout(10.0):
+                while link._look is not None:
+                    await asyncio.sleep(0)
+            sender.send(b"y")
+            await listener.until(lambda: listener.received[peer].endswith(b"y"))
         await link.close()
 
     asyncio.run(main())

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 
 from missions.errors import InputError
-from sitl.services.links import StationLinks
+from sitl.services.links import MOST_STRANGERS, StationLinks
 from sitl.services.peer import Peer
 from sitl.services.tcp_client import BACKLOG_BYTES
 
@@ -137,3 +137,39 @@ def test_sending_to_nobody_is_no_error(links: StationLinks) -> None:
     links.send(Peer("tcp", "127.0.0.1", 1), b"lost")
     links.send(Peer("udp", "127.0.0.1", 1), b"lost")
     links.poll(0.0)
+
+
+def test_a_turn_takes_several_datagrams_but_not_all_there_are(links: StationLinks, face: Recorder) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        sender.bind(("127.0.0.1", 0))
+        for _ in range(100):
+            sender.sendto(b"x", ("127.0.0.1", links.udp_port))
+        peer = Peer("udp", *sender.getsockname())
+        links.poll(PATIENCE_S)
+        assert 1 < len(face.received[peer]) < 100
+        poll_until(links, lambda: len(face.received[peer]) == 100)
+
+
+def test_no_number_of_source_ports_costs_memory_or_drives_out_who_is_there(
+    links: StationLinks, face: Recorder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now_s = 100.0
+    monkeypatch.setattr(time, "monotonic", lambda: now_s)
+    station = Peer("udp", "10.0.0.1", 14550)
+    for number in range(3 * MOST_STRANGERS):
+        assert links._has_room_for(station)
+        assert links._has_room_for(Peer("udp", "10.0.0.2", number)) == (number < MOST_STRANGERS - 1)
+    assert len(links._heard_at_s) == MOST_STRANGERS
+    now_s += 4.0
+    assert links._has_room_for(Peer("udp", "10.0.0.3", 1))
+    assert len(links._heard_at_s) == MOST_STRANGERS
+
+
+def test_one_connection_too_many_is_closed(links: StationLinks, face: Recorder) -> None:
+    with contextlib.ExitStack() as stack:
+        clients = [stack.enter_context(connect(links)) for _ in range(MOST_STRANGERS)]
+        poll_until(links, lambda: {peer_of(client) for client in clients} <= face.present)
+        last = stack.enter_context(connect(links))
+        poll_until(links, lambda: links.refused)
+        assert last.recv(100) == b""
+        assert peer_of(clients[0]) in face.present
