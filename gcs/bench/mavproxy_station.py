@@ -64,6 +64,14 @@ class MavProxy:
         self._input.flush()
         return self.wait_for(answer, start, patience_s)
 
+    def repeat(self, command: str, answer: str, *, every_s: float = 1.0) -> re.Match[str]:
+        """Give a command again and again until the answer comes: for what a loss or MAVProxy itself holds up."""
+        deadline_s = time.monotonic() + PATIENCE_S
+        while time.monotonic() < deadline_s - every_s:
+            with contextlib.suppress(TimeoutError):
+                return self.ask(command, answer, every_s)
+        return self.ask(command, answer, deadline_s - time.monotonic())
+
     def wait_for(self, answer: str, start: int = 0, patience_s: float = PATIENCE_S) -> re.Match[str]:
         """Wait until what it says from position `start` of `said` on matches; raises TimeoutError as `ask` does."""
         deadline_s = time.monotonic() + patience_s
@@ -73,14 +81,6 @@ class MavProxy:
             if left_s <= 0.0 or (not self._read(left_s) and self._process.poll() is not None):
                 raise TimeoutError(f"MAVProxy did not say {answer!r}; it said {self.said[start:][-_SHOWN:]!r}")
         return match
-
-    def repeat(self, command: str, answer: str, patience_s: float = PATIENCE_S) -> re.Match[str]:
-        """Give a command every second until the answer comes: for what MAVProxy does later than it is told to."""
-        deadline_s = time.monotonic() + patience_s
-        while time.monotonic() < deadline_s - 1.0:
-            with contextlib.suppress(TimeoutError):
-                return self.ask(command, answer, 1.0)
-        return self.ask(command, answer, deadline_s - time.monotonic())
 
     def _read(self, timeout_s: float) -> bool:
         """Take what it says within `timeout_s`; whether there was anything."""

@@ -73,7 +73,7 @@ def test_its_fence_and_rally_points_arrive_and_come_back(proxy: Any, vehicle: An
 
 
 def test_it_sets_and_fetches_parameters(proxy: Any, vehicle: Any) -> None:
-    proxy.wait_for("Received 47 parameters")
+    proxy.wait_for(f"Received {len(vehicle.parameters.names)} parameters")
     proxy.ask("param set WP_RADIUS 75", "")
     proxy.repeat("param fetch WP_RADIUS", r"WP_RADIUS = 75\.0")
     assert vehicle.parameters["WP_RADIUS"] == 75.0
@@ -91,8 +91,8 @@ def test_its_modes_arming_and_current_item_are_the_vehicles(proxy: Any, vehicle:
     assert not vehicle.state.armed
 
 
-def test_nothing_it_says_on_connecting_would_alarm_its_operator(proxy: Any) -> None:
-    proxy.wait_for("Received 47 parameters")
+def test_nothing_it_says_on_connecting_would_alarm_its_operator(proxy: Any, vehicle: Any) -> None:
+    proxy.wait_for(f"Received {len(vehicle.parameters.names)} parameters")
     said = proxy.said.lower()
     for alarm in ("breach", "fail", "error", "bad ", "unknown", "timed out", "timeout", "no gps", "traceback"):
         assert alarm not in said, proxy.said
