@@ -15,10 +15,11 @@ from gcs.run_folder import RunFolder
 from gcs.swarm_clock import SwarmClock
 from gcs.tlog import TelemetryLog
 from gcs.transfers.command import arm, set_mode
-from gcs.transfers.run import upload_and_verify
+from gcs.transfers.plans import upload_and_verify
 from gcs.vehicle_link import VehicleLink
 from gcs.watch import Display, VehicleStatus, watch_flight
 from missions.errors import InputError
+from missions.plan_type import PlanType
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from planner.verify import require, verify
@@ -93,8 +94,11 @@ async def fly(
 
         announce("Uploading missions and reading them back")
         began = time.monotonic()
-        pairs = zip(vehicles, plan.uavs, strict=True)
-        verified = await _unless_lost(swarm, *(upload_and_verify(vehicle, uav.mission) for vehicle, uav in pairs))
+        uploads = [
+            upload_and_verify(vehicle, PlanType.MISSION, uav.mission)
+            for vehicle, uav in zip(vehicles, plan.uavs, strict=True)
+        ]
+        verified = await _unless_lost(swarm, *uploads)
         upload_s = time.monotonic() - began
 
         announce("Arming, AUTO")

@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from gcs.status_lines import StatusLines
 from gcs.tlog import TelemetryLog
+from gcs.transfers.acquaintance import Acquaintance
 from sitl.services.peer import Message, Peer
 from sitl.services.signing import Signer, Signing
 
@@ -35,7 +36,9 @@ class VehicleLink:
         frames: how many have come.
         lost_frames: frames missing from its sequence numbers.
         texts: its STATUSTEXT lines, oldest first.
+        known: what transfers have learned of it and the link to it.
         transfer_lock: held by the one transfer there may be at a time.
+        command_lock: held by the one command there may be at a time.
     """
 
     def __init__(
@@ -57,7 +60,9 @@ class VehicleLink:
         self.frames = 0
         self.lost_frames = 0
         self.texts: list[str] = []
+        self.known = Acquaintance()
         self.transfer_lock = asyncio.Lock()
+        self.command_lock = asyncio.Lock()
         self._send_message = send_message
         self._log = log
         self._next_seq: int | None = None

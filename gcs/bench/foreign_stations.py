@@ -19,10 +19,11 @@ from gcs.bench.peers import LOOPBACK, PATIENCE_S, free_udp_port
 from gcs.fleet import Fleet
 from gcs.links.udp import UdpLink
 from gcs.transfers.errors import TransferError
-from gcs.transfers.run import upload_and_verify
+from gcs.transfers.plans import upload_and_verify
 from missions.commands import Command, Frame
 from missions.formats.waypoints import read_waypoints, write_waypoints
 from missions.mission import Mission, MissionItem
+from missions.plan_type import PlanType
 from missions.scenario import Scenario, VehicleModel
 from sitl.swarm import Swarm, SwarmOptions
 
@@ -85,7 +86,9 @@ def time_skein(port: int, missions: Missions) -> float:
             fleet.attach(await UdpLink.open(port))
             vehicles = await fleet.wait_for(sorted(missions), PATIENCE_S)
             start_s = time.perf_counter()
-            await asyncio.gather(*(upload_and_verify(vehicle, missions[vehicle.sysid]) for vehicle in vehicles))
+            await asyncio.gather(
+                *(upload_and_verify(vehicle, PlanType.MISSION, missions[vehicle.sysid]) for vehicle in vehicles)
+            )
             return time.perf_counter() - start_s
 
     return asyncio.run(work())

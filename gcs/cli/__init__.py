@@ -3,13 +3,19 @@
 import typer
 
 from gcs.cli.bench import bench
+from gcs.cli.clear import clear
 from gcs.cli.demo import demo
+from gcs.cli.download import download
 from gcs.cli.export import export
 from gcs.cli.fly import fly
+from gcs.cli.orders import abort, arm, disarm, mode, rtl
+from gcs.cli.params import params
 from gcs.cli.plan import plan
 from gcs.cli.replay import replay
 from gcs.cli.reproduce import reproduce
 from gcs.cli.sim import sim
+from gcs.cli.status import status
+from gcs.cli.upload import upload
 
 app = typer.Typer(
     name="skein",
@@ -19,5 +25,8 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (demo, plan, sim, fly, export, replay, bench, reproduce):
+ON_THIS_MACHINE = (demo, plan, sim, fly, export, replay, bench, reproduce)
+WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status)
+for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)
+app.add_typer(params)

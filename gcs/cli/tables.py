@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from rich.markup import escape
 from rich.table import Table
 
 from missions.scenario import Scenario
@@ -36,6 +37,38 @@ def _gap(standing: Standing) -> str:
     if standing.gap is None:
         return "-"
     return f"{round(100.0 * standing.gap, 3) + 0.0:.3f}%"
+
+
+def results_table(title: str, sysids: list[int], done: dict[int, str], failed: dict[int, str]) -> Table:
+    """What came of an order, a vehicle a row."""
+    table = Table("vehicle", "", "result", title=title)
+    for sysid in sysids:
+        if sysid in failed:
+            table.add_row(str(sysid), "[red]failed[/red]", escape(failed[sysid]))
+        else:
+            table.add_row(str(sysid), "[green]ok[/green]", escape(done[sysid]))
+    return table
+
+
+def status_table(reports: dict[int, Any]) -> Table:
+    """What each vehicle says of itself."""
+    table = _table("Vehicles", ["vehicle", "address", "mode", "armed", "state", "above home m", "airspeed m/s", "item"])
+    for sysid, report in reports.items():
+        if isinstance(report, Exception):
+            table.add_row(str(sysid), f"[red]{escape(str(report))}[/red]")
+            continue
+        state = "[red]fence breached[/red]" if report["fence_breached"] else report["landed_state"] or "-"
+        table.add_row(
+            str(sysid),
+            report["address"],
+            report["mode"],
+            "[yellow]yes[/yellow]" if report["armed"] else "no",
+            state,
+            _shown(report["relative_altitude_m"], ".0f"),
+            _shown(report["airspeed_m_s"], ".1f"),
+            f"{report['mission_item']}/{report['mission_items']}" if report["mission_item"] is not None else "-",
+        )
+    return table
 
 
 def flight_table(metrics: dict[str, Any]) -> Table:

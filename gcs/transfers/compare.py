@@ -1,45 +1,58 @@
-"""Comparing the mission that was sent with the one that the vehicle holds."""
+"""Comparing the plan that was sent with the one that the vehicle holds."""
 
 import math
+from collections.abc import Mapping, Sequence
 
-from missions.mission import Mission, MissionItem
+from missions.mission import MissionItem
+from missions.plan_type import PlanType
 
-LARGEST_POSITION_DIFFERENCE_E7 = 2
-LARGEST_ALTITUDE_DIFFERENCE_M = 0.01
-LARGEST_PARAM_DIFFERENCE = 1e-3
-"""Autopilots pack what they store: 2 cm, 1 cm (ArduPilot keeps centimetres) and a thousandth are the same."""
+_POSITION_E7 = 2.0
+_ALTITUDE_M = 0.01
+_PARAM = 1e-3
+_RALLY_ALTITUDE_M = 1.0
+"""Autopilots pack what they store: 2 cm, 1 cm (ArduPilot keeps centimetres) and a thousandth are the same; of rally
+points whole metres are kept."""
+
+_POSITION = {"lat_e7": _POSITION_E7, "lon_e7": _POSITION_E7}
+
+_TOLERANCES: Mapping[PlanType, Mapping[str, float]] = {
+    PlanType.MISSION: {
+        "command": 0.0,
+        "frame": 0.0,
+        "param1": _PARAM,
+        "param2": _PARAM,
+        "param3": _PARAM,
+        "param4": _PARAM,
+        **_POSITION,
+        "alt_m": _ALTITUDE_M,
+        "autocontinue": 0.0,
+    },
+    PlanType.FENCE: {"command": 0.0, "param1": _PARAM, **_POSITION},
+    PlanType.RALLY: {"command": 0.0, "frame": 0.0, **_POSITION, "alt_m": _RALLY_ALTITUDE_M},
+}
+"""The fields that a plan of each type consists of, and how much they may differ."""
 
 
-def differences(sent: Mission, held: Mission) -> list[str]:
+def differences(plan_type: PlanType, sent: Sequence[MissionItem], held: Sequence[MissionItem]) -> list[str]:
     """What differs, a line each, with item and field; empty when the vehicle holds what was sent.
 
-    Item 0 is the vehicle's own home, which replaces the one sent, and is not compared.
+    Item 0 of a mission is the vehicle's own home, which replaces the one sent, and is not compared.
     """
+    first = 1 if plan_type == PlanType.MISSION else 0
     lines = []
-    if len(sent) != len(held):
+    if max(len(sent), first) != max(len(held), first):
         lines.append(f"{len(held)} items held, {len(sent)} sent")
-    for seq, (wanted, found) in enumerate(zip(sent, held, strict=False)):
-        if seq > 0:
-            lines += [f"item {seq}: {line}" for line in _item_differences(wanted, found)]
+    tolerances = _TOLERANCES[plan_type]
+    for seq, (wanted, found) in enumerate(zip(sent[first:], held[first:], strict=False), start=first):
+        if wanted != found:
+            lines += [f"item {seq}: {line}" for line in _item_differences(wanted, found, tolerances)]
     return lines
 
 
-def _item_differences(sent: MissionItem, held: MissionItem) -> list[str]:
-    allowed = {
-        "command": 0.0,
-        "frame": 0.0,
-        "param1": LARGEST_PARAM_DIFFERENCE,
-        "param2": LARGEST_PARAM_DIFFERENCE,
-        "param3": LARGEST_PARAM_DIFFERENCE,
-        "param4": LARGEST_PARAM_DIFFERENCE,
-        "lat_e7": LARGEST_POSITION_DIFFERENCE_E7,
-        "lon_e7": LARGEST_POSITION_DIFFERENCE_E7,
-        "alt_m": LARGEST_ALTITUDE_DIFFERENCE_M,
-        "autocontinue": 0.0,
-    }
+def _item_differences(sent: MissionItem, held: MissionItem, tolerances: Mapping[str, float]) -> list[str]:
     return [
         f"{name} is {getattr(held, name):.9g}, sent {getattr(sent, name):.9g}"
-        for name, tolerance in allowed.items()
+        for name, tolerance in tolerances.items()
         if not _same(getattr(sent, name), getattr(held, name), tolerance)
     ]
 

@@ -1,15 +1,28 @@
-"""What the transfers have in common: one message at a time that waits for its answer, repeated until it comes."""
+"""What all transfers have in common: messages that want an answer, repeated until it comes or there is no hope."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import ClassVar, Generic, TypeVar
 
 from gcs.station import is_for_station
+from gcs.transfers.acquaintance import Acquaintance
 from gcs.transfers.errors import TransferError
 from sitl.services.peer import Message
-from sitl.services.round_trip import TRIES, RoundTrip
+from sitl.services.round_trip import TRIES
 
 Result = TypeVar("Result")
+
+SILENT_S = 12.0
+"""A vehicle of which nothing at all is heard for so long is out of reach."""
+
+STUCK_S = 30.0
+"""A transfer with a vehicle that is heard, but makes no progress for so long, is given up."""
+
+_DOUBLINGS = 2
+"""Loss on a radio link is no sign of congestion: to wait longer and longer would only make the transfer longer."""
+
+_SHORTEST_S = 0.1
+"""The least time that a vehicle is given for an answer, however quick the link."""
 
 
 class Transfer(ABC, Generic[Result]):
@@ -19,23 +32,32 @@ class Transfer(ABC, Generic[Result]):
         sysid, compid: the vehicle.
         send: called with each MAVLink message to put on the wire.
         now: current time in seconds; only differences matter.
+        known: what earlier transfers have learned of the vehicle, and this one adds to.
 
     Attributes:
         outcome: the result or the error; None while it goes on.
         deadline_s: when `on_tick` has something to do next.
     """
 
-    def __init__(self, sysid: int, compid: int, send: Callable[[Message], None], now: Callable[[], float]) -> None:
+    stuck_s: ClassVar[float] = STUCK_S
+
+    def __init__(
+        self,
+        sysid: int,
+        compid: int,
+        send: Callable[[Message], None],
+        now: Callable[[], float],
+        known: Acquaintance | None = None,
+    ) -> None:
         self.outcome: Result | TransferError | None = None
         self.deadline_s = now()
         self._target = (sysid, compid)
         self._send = send
         self._now = now
-        self._round_trip = RoundTrip()
+        self._known = known or Acquaintance()
         self._waiting: Message | None = None
-        self._sent_at_s = now()
+        self._sent_at_s = self._progress_at_s = self._heard_at_s = now()
         self._tries = 0
-        self._shortest_wait_s = 0.0
         self._last_heard: tuple[str, float] | None = None
 
     @abstractmethod
@@ -48,45 +70,63 @@ class Transfer(ABC, Generic[Result]):
 
     @abstractmethod
     def _give_up(self) -> "Result | TransferError":
-        """The outcome after the last repeat has gone unanswered."""
+        """The outcome when there is no hope of progress."""
+
+    def cancel(self) -> None:
+        """The station no longer wants it: tell the vehicle, where it has to know."""
 
     def on_message(self, message: Message) -> None:
-        """Take one message from the vehicle; what does not belong to the transfer is ignored."""
+        """Take one message from the vehicle; what does not belong to the transfer only shows that it is there."""
         if self.outcome is None and is_for_station(message):
+            self._heard_at_s = self._now()
             self._take(message)
 
     def on_tick(self) -> None:
-        """Repeat the message whose answer is overdue, or give up."""
-        if self.outcome is not None or self._now() < self.deadline_s or self._waiting is None:
+        """Repeat what is overdue, or give up."""
+        now_s = self._now()
+        if self.outcome is not None or now_s < self.deadline_s:
             return
-        if self._tries >= TRIES:
+        silent, stuck = now_s - self._heard_at_s >= SILENT_S, now_s - self._progress_at_s >= self.stuck_s
+        if self._tries >= TRIES and (silent or stuck):
             self.outcome = self._give_up()
             return
         self._tries += 1
+        self._repeat()
+
+    def _repeat(self) -> None:
+        """Send again what has not been answered."""
         self._send(self._waiting)
         self._set_deadline()
 
-    def _ask(self, message: Message, shortest_wait_s: float = 0.0) -> None:
-        """Send a message that wants an answer, after the previous one has got its own: this is progress."""
+    def _ask(self, message: Message) -> None:
+        """Send a message that wants an answer, and repeat it from now on."""
         self._waiting = message
         self._tries = 0
-        self._shortest_wait_s = shortest_wait_s
         self._sent_at_s = self._now()
         self._send(message)
         self._set_deadline()
 
+    def _progress(self) -> None:
+        """The vehicle has come a step further."""
+        self._progress_at_s = self._now()
+        self._tries = 0
+
     def _answered(self, message: Message) -> None:
         """The waiting message has been answered: note how long that took."""
         if self._tries == 0:
-            self._round_trip.measure(self._now() - self._sent_at_s)
+            self._known.round_trip.measure(self._now() - self._sent_at_s)
         self._heard(message)
+        self._progress()
 
     def _heard(self, message: Message) -> None:
         seq = getattr(message, "seq", None)
         self._last_heard = (message.get_type() if seq is None else f"{message.get_type()} {seq}", self._now())
 
     def _set_deadline(self) -> None:
-        self.deadline_s = self._now() + max(self._shortest_wait_s, self._round_trip.timeout_s(self._tries))
+        self.deadline_s = self._now() + self._timeout_s(self._tries)
+
+    def _timeout_s(self, tries: int) -> float:
+        return self._known.round_trip.timeout_s(min(tries, _DOUBLINGS), _SHORTEST_S)
 
     def _error(self, what: str) -> TransferError:
         """An error that names the vehicle and what was last heard of it."""

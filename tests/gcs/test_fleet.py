@@ -15,8 +15,9 @@ from gcs.links.udp import UdpLink
 from gcs.tlog import TelemetryLog
 from gcs.transfers.command import arm, command, disarm, set_mode
 from gcs.transfers.errors import TransferError
-from gcs.transfers.run import download, upload_and_verify
+from gcs.transfers.plans import download, upload_and_verify
 from missions.errors import InputError
+from missions.plan_type import PlanType
 from sitl.modes import Mode
 
 LOOPBACK = "127.0.0.1"
@@ -43,7 +44,9 @@ def test_nine_vehicles_get_their_own_missions_at_once(
             found = await fleet.wait_for(range(1, 10), PATIENCE_S)
             assert [vehicle.sysid for vehicle in found] == list(range(1, 10))
             pairs = zip(found, missions, strict=True)
-            counts = await asyncio.gather(*(upload_and_verify(vehicle, mission) for vehicle, mission in pairs))
+            counts = await asyncio.gather(
+                *(upload_and_verify(vehicle, PlanType.MISSION, mission) for vehicle, mission in pairs)
+            )
             assert counts == [len(mission) for mission in missions]
             await asyncio.gather(*(arm(vehicle) for vehicle in found))
             await asyncio.gather(*(set_mode(vehicle, Mode.AUTO) for vehicle in found))
@@ -69,8 +72,8 @@ def test_one_vehicle_over_tcp(make_vehicle: Any, make_mission: Any, serve: Any) 
         async with Fleet() as fleet:
             fleet.attach(await TcpLink.connect(LOOPBACK, links.tcp_port))
             (found,) = await fleet.wait_for([4], PATIENCE_S)
-            assert await upload_and_verify(found, make_mission(100)) == 100
-            assert await download(found) == make_mission(100)
+            assert await upload_and_verify(found, PlanType.MISSION, make_mission(100)) == 100
+            assert await download(found, PlanType.MISSION) == make_mission(100).items
             assert await command(found, 31_000) == 3
 
     run(main())
@@ -88,10 +91,10 @@ def test_refusals_carry_the_vehicles_own_words(make_vehicle: Any, make_mission: 
                 await arm(found)
             vehicle.refusal = "mission: the third leg of it climbs at 14 degrees, of which the airframe has only 8"
             with pytest.raises(TransferError, match=f"MAV_MISSION_ERROR.*it says: {vehicle.refusal}$"):
-                await upload_and_verify(found, make_mission(9))
+                await upload_and_verify(found, PlanType.MISSION, make_mission(9))
             vehicle.change(airborne=True, mode=Mode.AUTO)
             with pytest.raises(TransferError, match=r"MAV_MISSION_DENIED.*switch to LOITER first"):
-                await upload_and_verify(found, make_mission(9))
+                await upload_and_verify(found, PlanType.MISSION, make_mission(9))
             with pytest.raises(TransferError, match="disarming refused"):
                 await disarm(found)
 
@@ -111,7 +114,7 @@ def test_a_mission_held_otherwise_is_reported_by_item_and_field(
             fleet.attach(await TcpLink.connect(LOOPBACK, links.tcp_port))
             (found,) = await fleet.wait_for([4], PATIENCE_S)
             with pytest.raises(TransferError, match="vehicle 4: holds another mission than was sent: 12 items held, 9"):
-                await upload_and_verify(found, make_mission(9))
+                await upload_and_verify(found, PlanType.MISSION, make_mission(9))
 
     run(main())
 
@@ -168,7 +171,7 @@ def test_a_vehicle_on_two_links_is_heard_once_and_kept_when_one_is_cut(
             fleet.attach(tcp)
             (found,) = await fleet.wait_for([4], PATIENCE_S)
             fleet.attach(udp)
-            assert await upload_and_verify(found, make_mission(9)) == 9
+            assert await upload_and_verify(found, PlanType.MISSION, make_mission(9)) == 9
             while not fleet._routes[4].standby:
                 await asyncio.sleep(0.01)
             assert found.peer == tcp.peer
@@ -178,7 +181,7 @@ def test_a_vehicle_on_two_links_is_heard_once_and_kept_when_one_is_cut(
                 while found.peer == tcp.peer:
                     await asyncio.sleep(0.01)
             assert found.peer.port == links.udp_port
-            assert await upload_and_verify(found, make_mission(12)) == 12
+            assert await upload_and_verify(found, PlanType.MISSION, make_mission(12)) == 12
             assert fleet.complaints() == []
 
     run(main())

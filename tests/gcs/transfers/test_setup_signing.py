@@ -12,9 +12,10 @@ from gcs.fleet import Fleet
 from gcs.links.tcp import TcpLink
 from gcs.tlog import TelemetryLog
 from gcs.transfers.errors import TransferError
-from gcs.transfers.run import upload_and_verify
+from gcs.transfers.plans import upload_and_verify
 from gcs.transfers.setup_signing import setup_signing
 from missions.errors import InputError
+from missions.plan_type import PlanType
 from sitl.services.signing import Signing
 from sitl.store import Store
 
@@ -41,7 +42,7 @@ def test_a_key_is_given_changed_and_taken_away(
                 await setup_signing(found, Signing(key=key))
                 with vehicle.lock:
                     assert Signing(store).key == key
-                assert await upload_and_verify(found, make_mission(9)) == 9
+                assert await upload_and_verify(found, PlanType.MISSION, make_mission(9)) == 9
 
     run(main())
     recorded = (tmp_path / "4.tlog").read_bytes()
@@ -64,7 +65,7 @@ def test_a_vehicle_that_takes_no_key_is_told_in_its_own_words(
             (found,) = await fleet.wait_for([4], PATIENCE_S)
             with pytest.raises(TransferError, match=r"^vehicle 4: does not sign with the new key; it says: .*: armed"):
                 await setup_signing(found, Signing(key=KEY))
-            assert await upload_and_verify(found, make_mission(9)) == 9
+            assert await upload_and_verify(found, PlanType.MISSION, make_mission(9)) == 9
 
     run(main())
 
@@ -76,7 +77,7 @@ def test_with_a_key_a_station_talks_to_whoever_has_it(make_vehicle: Any, make_mi
         async with Fleet(signing=Signing(key=KEY)) as fleet:
             fleet.attach(await TcpLink.connect(LOOPBACK, links.tcp_port))
             (found,) = await fleet.wait_for([4], PATIENCE_S)
-            assert await upload_and_verify(found, make_mission(9)) == 9
+            assert await upload_and_verify(found, PlanType.MISSION, make_mission(9)) == 9
             assert fleet.complaints() == []
 
     run(main())

@@ -1,0 +1,166 @@
+"""What the commands of an operator share: which links, which vehicles, and how results are shown."""
+
+import asyncio
+from collections.abc import Callable, Coroutine, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+import typer
+
+from gcs.cli.errors import FELL_SHORT
+from gcs.cli.options import finite
+
+if TYPE_CHECKING:
+    from gcs.vehicle_link import VehicleLink
+    from sitl.services.signing import Signing
+
+DEFAULT_URL = "udpin://127.0.0.1:14550"
+NAMED_WAIT_S = 10.0
+HEARD_WAIT_S = 2.2
+"""Two heartbeats and a little: who is there is heard within it."""
+
+ConnectOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--connect",
+        metavar="URL",
+        help=f"udpin://HOST:PORT, udpout://HOST:PORT, tcp://HOST:PORT or serial://DEVICE:BAUD; {DEFAULT_URL} unless"
+        " given; may be given several times.",
+    ),
+]
+VehicleOption = Annotated[
+    str | None,
+    typer.Option("--vehicle", metavar="IDS", help="System ids, such as 3 or 1,4-6; all that are heard unless given."),
+]
+WaitOption = Annotated[
+    float | None,
+    typer.Option(
+        "--wait",
+        metavar="S",
+        min=0.1,
+        callback=finite,
+        help=f"Seconds to wait for heartbeats: {NAMED_WAIT_S:g} for the vehicles named, {HEARD_WAIT_S:g} for whoever is"
+        " there.",
+    ),
+]
+KeyOption = Annotated[
+    Path | None, typer.Option("--signing-key", metavar="FILE", help="Sign with this key, and hear only who does.")
+]
+_LAST_SYSID = 255
+
+
+class StationOptions(NamedTuple):
+    """What an operator's command was given: links, vehicles, patience, key, and how to print."""
+
+    connect: list[str] | None
+    vehicle: str | None
+    wait_s: float | None
+    signing_key: Path | None
+    json: bool
+
+    def sysids(self) -> list[int] | None:
+        """The vehicles chosen; None for all. Raises InputError."""
+        return chosen_sysids(self.vehicle)
+
+
+def chosen_sysids(text: str | None) -> list[int] | None:
+    """The system ids in "1,4-6"; None for all. Raises InputError."""
+    from missions.errors import InputError
+
+    if text is None:
+        return None
+    sysids: list[int] = []
+    for part in text.split(","):
+        first, _, last = part.partition("-")
+        try:
+            ids = range(int(first), int(last or first) + 1)
+        except ValueError:
+            raise InputError(f"--vehicle {text}: {part!r} is no system id; write 3 or 1,4-6") from None
+        if not ids or ids[0] < 1 or ids[-1] > _LAST_SYSID:
+            raise InputError(f"--vehicle {text}: {part!r}: system ids are 1 to {_LAST_SYSID}")
+        sysids += [sysid for sysid in ids if sysid not in sysids]
+    return sysids
+
+
+def for_vehicles(
+    options: StationOptions,
+    title: str,
+    work: "Callable[[VehicleLink], Coroutine[Any, Any, Any]]",
+    *,
+    sysids: Sequence[int] | None = None,
+    check: "Callable[[list[VehicleLink]], None] | None" = None,
+    words: Callable[[Any], str] = str,
+) -> None:
+    """Find the vehicles, do some work with all of them at once, and print what came of it; exit with 1 if one failed.
+
+    Args:
+        options: the command's.
+        title: of the table.
+        work: with one vehicle.
+        sysids: the vehicles, where the options do not say it.
+        check: called with the vehicles before anything is done.
+        words: what the table says of a result; JSON has the result as it is.
+
+    Raises:
+        InputError: a link cannot be opened, or a vehicle is missing.
+    """
+    wanted = options.sysids() if sysids is None else sysids
+    show_results(title, asyncio.run(results_of(options, wanted, work, check)), options.json, words)
+
+
+async def results_of(
+    options: StationOptions,
+    sysids: Sequence[int] | None,
+    work: "Callable[[VehicleLink], Coroutine[Any, Any, Any]]",
+    check: "Callable[[list[VehicleLink]], None] | None" = None,
+) -> dict[int, Any]:
+    """What came of some work with each vehicle, by system id: a result, or the TransferError in its place."""
+    from gcs.cli import output
+    from gcs.fleet import Fleet
+    from gcs.links.open_link import open_link
+    from gcs.transfers.for_all import for_all
+
+    async with Fleet(signing=signing_of(options.signing_key), announce=output.progress.print) as fleet:
+        for url in options.connect or [DEFAULT_URL]:
+            fleet.attach(await open_link(url))
+        if sysids is None:
+            vehicles = await fleet.discover(options.wait_s or HEARD_WAIT_S)
+        else:
+            vehicles = await fleet.wait_for(sysids, options.wait_s or NAMED_WAIT_S)
+        if check is not None:
+            check(vehicles)
+        results = await for_all(vehicles, work)
+        fleet.check()
+        for line in fleet.complaints():
+            output.progress.print(line)
+        return results
+
+
+def signing_of(key_file: Path | None) -> "Signing":
+    """How the station signs: with the key in a file, or not. Raises InputError."""
+    from gcs.cli import output
+    from gcs.signing_key import read_signing_key
+    from sitl.services.signing import Signing
+
+    return Signing(key=None if key_file is None else read_signing_key(key_file, output.progress.print))
+
+
+def show_results(title: str, results: dict[int, Any], json: bool, words: Callable[[Any], str] = str) -> None:
+    """Print what came of each vehicle; exit with 1 if one of them failed."""
+    from gcs.cli import output
+    from gcs.cli.tables import results_table
+
+    failed = {sysid: str(result) for sysid, result in results.items() if isinstance(result, Exception)}
+    if json:
+        rows = [
+            {"sysid": sysid, "ok": False, "error": failed[sysid]}
+            if sysid in failed
+            else {"sysid": sysid, "ok": True, "result": result}
+            for sysid, result in results.items()
+        ]
+        output.print_json({"vehicles": rows})
+    else:
+        done = {sysid: words(result) for sysid, result in results.items() if sysid not in failed}
+        output.print_wide(results_table(title, list(results), done, failed))
+    if failed:
+        raise SystemExit(FELL_SHORT)

@@ -1,0 +1,95 @@
+"""`skein upload`: bring missions to vehicles, and read them back."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from gcs.cli.errors import exit_codes
+from gcs.cli.options import JsonOption
+from gcs.cli.station import (
+    ConnectOption,
+    KeyOption,
+    StationOptions,
+    VehicleOption,
+    WaitOption,
+    for_vehicles,
+)
+
+if TYPE_CHECKING:
+    from gcs.vehicle_link import VehicleLink
+    from missions.formats.qgc_plan import Plan
+
+SourceArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="RUN|FILE", help="A run: each vehicle's mission; or a .plan or .waypoints file for chosen vehicles."
+    ),
+]
+
+
+def upload(
+    source: SourceArgument,
+    connect: ConnectOption = None,
+    vehicle: VehicleOption = None,
+    wait: WaitOption = None,
+    signing_key: KeyOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Upload missions to all vehicles at once, read each back and compare; a .plan file's fence and rally points too.
+
+    Example: skein upload runs/first --vehicle 1-3
+    """
+    with exit_codes():
+        from gcs.operations import upload_plan
+
+        options = StationOptions(connect, vehicle, wait, signing_key, json)
+        title = "Uploaded, read back and compared"
+        if source.is_dir():
+            plans = _plans_of_run(source, options.sysids())
+            for_vehicles(
+                options, title, lambda one: upload_plan(one, plans[one.sysid]), sysids=list(plans), words=_words
+            )
+        else:
+            plan = _plan_of_file(source)
+            check = _refuse_one_for_all if options.vehicle is None else None
+            for_vehicles(options, title, lambda one: upload_plan(one, plan), check=check, words=_words)
+
+
+def _plans_of_run(folder: Path, sysids: Sequence[int] | None) -> "dict[int, Plan]":
+    """The missions of a run by system id, of these vehicles only if they are given."""
+    from gcs.run_folder import RunFolder
+    from missions.errors import InputError
+    from missions.formats.qgc_plan import Plan
+
+    _, formation = RunFolder(folder).read()
+    plans = {uav.sysid: Plan(uav.mission) for uav in formation.uavs}
+    if unknown := [sysid for sysid in sysids or () if sysid not in plans]:
+        raise InputError(f"{folder}: has no mission for vehicle {unknown[0]}; there are {', '.join(map(str, plans))}")
+    return plans if sysids is None else {sysid: plans[sysid] for sysid in sysids}
+
+
+def _plan_of_file(path: Path) -> "Plan":
+    from missions.errors import InputError
+    from missions.formats.qgc_plan import Plan, read_plan
+    from missions.formats.waypoints import read_waypoints
+
+    if path.suffix == ".plan":
+        return read_plan(path)
+    if path.suffix == ".waypoints":
+        return Plan(read_waypoints(path))
+    raise InputError(f"{path}: neither a run's folder nor a .plan or .waypoints file")
+
+
+def _refuse_one_for_all(vehicles: "Sequence[VehicleLink]") -> None:
+    from missions.errors import InputError
+
+    if len(vehicles) == 1:
+        return
+    heard = ", ".join(str(one.sysid) for one in vehicles)
+    raise InputError(f"one file for several vehicles ({heard}) is likely a mistake; choose with --vehicle")
+
+
+def _words(counts: dict[str, int]) -> str:
+    return ", ".join(f"{name} {count} items" for name, count in counts.items())

@@ -1,0 +1,163 @@
+"""Downloading a plan: the station's side of the MAVLink mission protocol."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from gcs.transfers.acquaintance import Acquaintance
+from gcs.transfers.errors import TransferError
+from gcs.transfers.plan_transfer import PlanTransfer
+from missions.mission import MissionItem
+from missions.plan_type import PlanType
+from sitl.services.mission_items import decode_item
+from sitl.services.opaque_id import received_opaque_id
+from sitl.services.peer import Message
+
+FIRST_WINDOW = 4
+LARGEST_WINDOW = 32
+"""Requests outstanding at a time: few at first, one more for each that is answered."""
+
+_BUSY_S = 10.0
+"""A vehicle that denies a download while an upload runs is asked again for so long."""
+
+_UNANSWERED_TRIES = 7
+"""A peer that leaves the lowest request unanswered so often, and all others, may want them in strict order."""
+
+
+@dataclass
+class _Request:
+    """A request that is outstanding."""
+
+    due_at_s: float
+    sent_at_s: float
+    tries: int = 0
+
+
+class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
+    """Pulls one plan that a vehicle holds, with a window of requests; items may come in any order.
+
+    Each request is repeated by itself. A vehicle that wants them in strict order, and says so with INVALID_SEQUENCE or
+    an error or by its silence, is asked for one at a time, from the start.
+
+    Args:
+        plan_type, sysid, compid, send, now, known: as of PlanTransfer.
+    """
+
+    what = "download"
+
+    def __init__(
+        self,
+        plan_type: PlanType,
+        sysid: int,
+        compid: int,
+        send: Callable[[Message], None],
+        now: Callable[[], float],
+        known: Acquaintance | None = None,
+    ) -> None:
+        super().__init__(plan_type, sysid, compid, send, now, known)
+        self._strict = self._known.strict
+        self._plan: tuple[int, int] | None = None  # count and opaque id
+        self._window = FIRST_WINDOW
+        self._items: dict[int, MissionItem] = {}
+        self._pending: deque[int] = deque()
+        self._requests: dict[int, _Request] = {}
+
+    def _begin(self) -> None:
+        self._plan = None
+        self._ask(mavlink.MAVLink_mission_request_list_message(*self._target, self._plan_type))
+
+    def _take_plan_message(self, kind: str, message: Message) -> None:
+        if kind == "MISSION_ITEM_INT":
+            if self._plan is not None and message.seq < self._plan[0] and message.seq not in self._items:
+                self._take_item(message)
+        elif kind == "MISSION_COUNT":
+            self._take_count(message)
+        elif kind == "MISSION_ACK" and message.type != mavlink.MAV_MISSION_ACCEPTED:
+            self._take_error(int(message.type))
+
+    def _take_count(self, message: Message) -> None:
+        plan = (int(message.count), received_opaque_id(message))
+        if plan == self._plan:
+            return
+        if self._plan is None:
+            self._answered(message)
+        else:  # the plan has been changed meanwhile, or one of the two is late: ask which
+            self._begin_again(mavlink.MAV_MISSION_ERROR)
+            return
+        self._plan = plan
+        self._items = {}
+        self._requests = {}
+        self._pending = deque(range(plan[0]))
+        self._window = 1 if self._strict else FIRST_WINDOW
+        self._go_on()
+
+    def _take_item(self, message: Message) -> None:
+        seq = message.seq
+        self._items[seq] = decode_item(message)
+        self._progress()
+        request = self._requests.pop(seq, None)
+        if request is None:
+            self._pending.remove(seq)
+        elif request.tries == 0:
+            self._known.round_trip.measure(self._now() - request.sent_at_s)
+        if not self._strict:
+            self._window = min(LARGEST_WINDOW, self._window + 1)
+        self._go_on()
+
+    def _take_error(self, result: int) -> None:
+        out_of_order = result in (mavlink.MAV_MISSION_INVALID_SEQUENCE, mavlink.MAV_MISSION_ERROR)
+        if self._plan is not None and out_of_order and not self._strict:
+            self._known.strict = self._strict = True
+            self._begin_again(result)
+        else:
+            self._take_refusal(result)
+
+    def _may_pass(self, result: int) -> bool:
+        return result == mavlink.MAV_MISSION_DENIED and self._now() - self._progress_at_s < _BUSY_S
+
+    def _go_on(self) -> None:
+        """Ask for the next items that the window has room for, or thank for the last."""
+        if not self._pending and not self._requests:
+            accepted = mavlink.MAV_MISSION_ACCEPTED
+            self._send(mavlink.MAVLink_mission_ack_message(*self._target, accepted, self._plan_type))
+            self.outcome = tuple(self._items[seq] for seq in range(len(self._items)))
+            return
+        now_s = self._now()
+        due_at_s = now_s + self._timeout_s(0)
+        while self._pending and len(self._requests) < self._window:
+            seq = self._pending.popleft()
+            self._requests[seq] = _Request(due_at_s, now_s)
+            self._send_request(seq)
+        self.deadline_s = min(request.due_at_s for request in self._requests.values())
+
+    def _repeat(self) -> None:
+        if self._plan is None:
+            super()._repeat()
+            return
+        now_s = self._now()
+        lowest = min(self._requests)
+        if not self._strict and self._requests[lowest].tries >= _UNANSWERED_TRIES and self._tries > _UNANSWERED_TRIES:
+            self._strict = True
+            self._begin_again(mavlink.MAV_MISSION_ERROR)
+            return
+        for seq in sorted(self._requests):
+            request = self._requests[seq]
+            if request.due_at_s <= now_s:
+                request.tries += 1
+                request.due_at_s = now_s + self._timeout_s(request.tries)
+                self._send_request(seq)
+        self.deadline_s = min(request.due_at_s for request in self._requests.values())
+
+    def _send_request(self, seq: int) -> None:
+        self._send(mavlink.MAVLink_mission_request_int_message(*self._target, seq, self._plan_type))
+
+    def _give_up(self) -> "tuple[MissionItem, ...] | TransferError":
+        return self._stopped()
+
+    def _where(self) -> str:
+        if self._plan is None:
+            return "MISSION_REQUEST_LIST"
+        missing = next((seq for seq in range(self._plan[0]) if seq not in self._items), self._plan[0])
+        return f"item {missing} of {self._plan[0]}"
