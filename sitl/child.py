@@ -1,9 +1,13 @@
 """A process of endpoints, and each endpoint in it, seen from the station that started them."""
 
+import contextlib
 import multiprocessing
 import signal
+import threading
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from multiprocessing import forkserver
 from multiprocessing.context import ForkServerProcess
 
 from sitl.process import ProcessConfig, run_process
@@ -21,6 +25,8 @@ class EndpointProcess:
         self.config = config
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(["sitl.process"])
+        with _deaf_children():
+            forkserver.ensure_running()
         self.reports, child_end = context.Pipe(duplex=False)
         sysids = [endpoint.vehicle.sysid for endpoint in config.endpoints]
         name = "skein-" + "-".join(map(str, sorted({sysids[0], sysids[-1]})))
@@ -98,3 +104,21 @@ class Endpoint:
             return None
         code = self.process.exitcode or 0
         return f"process killed by {signal.Signals(-code).name}" if code < 0 else f"process ended with code {code}"
+
+
+@contextlib.contextmanager
+def _deaf_children() -> Iterator[None]:
+    """Processes started within this context ignore Ctrl-C and a closed terminal from their first moment on.
+
+    They hit the whole group of processes, and it is the station that ends its endpoints.
+    """
+    signals = [getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name)]
+    if threading.current_thread() is not threading.main_thread():  # Python lets only that one change them
+        yield
+        return
+    handlers = [(number, signal.signal(number, signal.SIG_IGN)) for number in signals]
+    try:
+        yield
+    finally:
+        for number, handler in handlers:
+            signal.signal(number, handler)

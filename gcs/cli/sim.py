@@ -1,5 +1,6 @@
 """`skein sim`: a swarm of simulated vehicles for any ground station."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -10,25 +11,83 @@ from gcs.cli.options import ScenarioArgument, SeedOption, SpeedOption
 if TYPE_CHECKING:
     from sitl.swarm import Swarm
 
-STATION_HOST = "127.0.0.1"
-STATION_PORT = 14550
-"""Where ground stations listen for UDP."""
 WATCH_PERIOD_S = 0.5
 
-CountOption = Annotated[int | None, typer.Option("--count", metavar="N", min=1, help="Only the first N vehicles.")]
+CountOption = Annotated[
+    int | None,
+    typer.Option(
+        "--count",
+        metavar="N",
+        min=1,
+        help="Only the first N vehicles; or, where the scenario has fewer, N with the others on a grid around its own, "
+        "on the ground, flying in its graph but in no plan of its. (For a planned formation of N, set shape.count in "
+        "the scenario.) System ids go on; at most 250.",
+    ),
+]
 HeldOption = Annotated[bool, typer.Option("--held", help="Hold the clock at simulated time 0 until Enter is pressed.")]
+InstanceOption = Annotated[
+    int,
+    typer.Option(
+        "--instance",
+        metavar="K",
+        min=0,
+        max=9,
+        help="Another swarm on this machine: TCP ports from 5760 + 2500 K, telemetry to UDP 14550 + 10 K, a state "
+        "folder of its own. For one station on all of them, give each --udp 127.0.0.1:14550 and its own --sysid-base.",
+    ),
+]
+SysidBaseOption = Annotated[
+    int | None,
+    typer.Option("--sysid-base", metavar="S", min=1, max=250, help="System id of the first vehicle; all shift alike."),
+]
+UdpOption = Annotated[
+    list[str] | None,
+    typer.Option("--udp", metavar="HOST:PORT", help="Send telemetry there instead; may be given several times."),
+]
 TcpPortOption = Annotated[
-    int, typer.Option("--tcp-port", metavar="P", min=0, max=65000, help="First vehicle's, 10 more each; 0: free ones.")
+    int | None,
+    typer.Option("--tcp-port", metavar="P", min=0, max=65535, help="First vehicle's, 10 more each; 0: free ones."),
+]
+StateOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--state",
+        metavar="DIR",
+        help="Where the vehicles keep missions, fences, rally points and parameters over restarts; a folder for each "
+        "scenario and instance in the user's state directory unless given.",
+    ),
+]
+WipeOption = Annotated[bool, typer.Option("--wipe", "-w", help="Forget all that the vehicles kept, and begin afresh.")]
+PerProcessOption = Annotated[
+    int | None,
+    typer.Option(
+        "--per-process",
+        metavar="M",
+        min=1,
+        help="Vehicles that share a process. Up to 24 have one each unless told otherwise, larger swarms as many "
+        "processes as there are cores. The flight is the same.",
+    ),
+]
+SigningKeyOption = Annotated[
+    Path | None,
+    typer.Option("--signing-key", metavar="FILE", help="Key that the vehicles sign with, and their stations must."),
 ]
 
 
 def sim(
     scenario: ScenarioArgument = "radars",
     count: CountOption = None,
+    instance: InstanceOption = 0,
     speed: SpeedOption = 1.0,
     held: HeldOption = False,
     seed: SeedOption = None,
-    tcp_port: TcpPortOption = 5760,
+    sysid_base: SysidBaseOption = None,
+    udp: UdpOption = None,
+    tcp_port: TcpPortOption = None,
+    state: StateOption = None,
+    wipe: WipeOption = False,
+    per_process: PerProcessOption = None,
+    signing_key: SigningKeyOption = None,
 ) -> None:
     """Leave a swarm running for any station: telemetry to UDP 14550, TCP at 5760, 5770, ... Ends with Ctrl-C.
 
@@ -36,29 +95,43 @@ def sim(
     """
     with exit_codes():
         from gcs.cli import output
-        from gcs.cli.tables import endpoint_table
-        from missions.errors import InputError
+        from gcs.cli.tables import endpoint_table, ways_to_connect
+        from gcs.signing_key import read_signing_key
+        from gcs.sim_ports import parse_station, require_free_tcp, tcp_base, udp_port
+        from gcs.state_folder import StateFolder, default_state_folder
         from missions.scenario import load_scenario
+        from sitl.services.links import LOOPBACK
         from sitl.swarm import Swarm, SwarmOptions
 
         loaded = load_scenario(scenario)
-        if count is not None and count > len(loaded.vehicles):
-            raise InputError(f"--count {count}: {loaded.name} has {len(loaded.vehicles)} vehicles")
-        flown = loaded.model_copy(update={"vehicles": loaded.vehicles[:count]})
-        options = SwarmOptions(
-            seed=loaded.seed if seed is None else seed,
-            delay_s=loaded.formation.delay_s,
-            held=held,
-            speed=speed or float("inf"),
-            stations=((STATION_HOST, STATION_PORT),),
-            tcp_port=tcp_port,
-        )
-        with Swarm(flown, options) as swarm:
-            output.out.print(endpoint_table(flown, swarm, STATION_PORT))
-            if held:
-                _release_on_enter(swarm)
-            output.out.print("Ctrl-C ends the simulation.")
-            _watch(swarm)
+        stations = [parse_station(text) for text in udp] if udp else [(LOOPBACK, udp_port(instance))]
+        first_port = tcp_base(instance) if tcp_port is None else tcp_port
+        with StateFolder(state or default_state_folder(loaded.name, instance)) as memory:
+            if wipe:
+                memory.wipe()
+            options = SwarmOptions(
+                seed=loaded.seed if seed is None else seed,
+                delay_s=loaded.formation.delay_s,
+                held=held,
+                speed=speed or float("inf"),
+                stations=tuple(stations),
+                tcp_port=first_port,
+                memory=memory.path,
+                signing_key=read_signing_key(signing_key, output.progress.print) if signing_key else None,
+                count=count,
+                sysid_base=sysid_base,
+                per_process=per_process,
+            )
+            if first_port:
+                require_free_tcp(first_port, count or len(loaded.vehicles))
+            with Swarm(loaded, options) as swarm:
+                output.out.print(endpoint_table(loaded.name, swarm))
+                for line in ways_to_connect(swarm, stations, memory.path):
+                    output.out.print(line, soft_wrap=True)
+                if held:
+                    _release_on_enter(swarm)
+                output.out.print("Ctrl-C ends the simulation.")
+                _watch(swarm)
         raise SystemExit(FELL_SHORT)
 
 

@@ -1,5 +1,7 @@
 """The tables that commands print for people; they fit 80 columns."""
 
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 from rich.markup import escape
@@ -8,6 +10,7 @@ from rich.table import Table
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from planner.standing import Standing, standings
+from sitl.services.links import LOOPBACK
 from sitl.swarm import Swarm
 
 
@@ -121,14 +124,30 @@ def formation_table(metrics: dict[str, Any]) -> Table:
     return table
 
 
-def endpoint_table(scenario: Scenario, swarm: Swarm, station_port: int) -> Table:
+def endpoint_table(name: str, swarm: Swarm) -> Table:
     """Where each endpoint can be reached."""
-    table = _table(f"{scenario.name}: {len(swarm.endpoints)} vehicles", ["vehicle", "TCP server", "sends to"])
-    for vehicle in scenario.vehicles:
-        ready = swarm.endpoints[vehicle.sysid].ready
-        port = ready.tcp_port if ready else 0
-        table.add_row(f"{vehicle.sysid} {vehicle.name}", f"127.0.0.1:{port}", f"UDP 127.0.0.1:{station_port}")
+    table = _table(f"{name}: {len(swarm.endpoints)} vehicles", ["vehicle", "TCP server", "UDP socket", "process"])
+    for endpoint in swarm.endpoints.values():
+        if endpoint.ready is not None:
+            table.add_row(
+                f"{endpoint.sysid} {endpoint.name}",
+                f"{LOOPBACK}:{endpoint.ready.tcp_port}",
+                f"{LOOPBACK}:{endpoint.ready.udp_port}",
+                str(endpoint.process.pid),
+            )
     return table
+
+
+def ways_to_connect(swarm: Swarm, stations: Sequence[tuple[str, int]], state: Path) -> Iterator[str]:
+    """How the usual stations reach a swarm, and where its vehicles keep what they know."""
+    (host, port), *_ = stations
+    tcp_port = next(endpoint.ready.tcp_port for endpoint in swarm.endpoints.values() if endpoint.ready)
+    opens = "by itself" if port == 14550 else f"with a UDP link on port {port}"
+    yield "Telemetry goes to UDP " + ", ".join(f"{host}:{port}" for host, port in stations)
+    yield f"QGroundControl: connects {opens}, or with a TCP link to {LOOPBACK}:{tcp_port}"
+    yield f"MAVProxy:       mavproxy.py --master udpin:{host}:{port}  (all), --master tcp:{LOOPBACK}:{tcp_port}  (one)"
+    yield f"MAVSDK:         udpin://{host}:{port}  (all), tcpout://{LOOPBACK}:{tcp_port}  (one)"
+    yield f"State:          {state}/<system id>"
 
 
 def _table(title: str, headings: list[str]) -> Table:
