@@ -27,7 +27,7 @@ def ports(short_scenario: Path) -> Iterator[list[int]]:
     sim = subprocess.Popen([*command, "--speed", "20"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert sim.stdout is not None
     lines = list(iter(sim.stdout.readline, "Ctrl-C ends the simulation.\n"))
-    yield [int(port) for line in lines for port in re.findall(r"127\.0\.0\.1:(\d+) ", line)[:1]]
+    yield [int(port) for line in lines for port in re.findall(r"^│ \d+ .*?127\.0\.0\.1:(\d+) ", line)]
     sim.send_signal(signal.SIGINT)
     _, err = sim.communicate(timeout=20)
     assert sim.returncode == 130, err
