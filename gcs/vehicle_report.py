@@ -18,6 +18,8 @@ _ASKED = {
     "FENCE_STATUS": mavlink.MAVLINK_MSG_ID_FENCE_STATUS,
 }
 """What makes up a report, apart from the HEARTBEAT."""
+_NO_MISSION = 0xFFFF
+"""MISSION_CURRENT's total where there is none."""
 _LANDED = {
     mavlink.MAV_LANDED_STATE_ON_GROUND: "on ground",
     mavlink.MAV_LANDED_STATE_IN_AIR: "in air",
@@ -56,7 +58,7 @@ def _report(vehicle: VehicleLink) -> dict[str, Any]:
         "airspeed_m_s": hud.airspeed if hud else None,
         "ground_speed_m_s": hud.groundspeed if hud else None,
         "mission_item": current.seq if current else None,
-        "mission_items": getattr(current, "total", None) if current else None,
+        "mission_items": current.total if current and current.total != _NO_MISSION else None,
         "mission_id": received_opaque_id(current) if current else None,
         "fence_breached": bool(fence.breach_status) if fence else None,
         "lost_frames": vehicle.lost_frames,

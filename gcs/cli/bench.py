@@ -54,6 +54,9 @@ TogetherOption = Annotated[
 GrowthOption = Annotated[
     bool, typer.Option("--growth", help="Measure how planning time grows up to 100 vehicles, instead.")
 ]
+MavlinkOption = Annotated[
+    bool, typer.Option("--mavlink", help="Measure station and endpoints against MAVSDK and MAVProxy, instead.")
+]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and figures.")]
 UpdateOption = Annotated[bool, typer.Option("--update-best", help="Keep what is better than the best-known paths.")]
 
@@ -72,6 +75,7 @@ def bench(
     together: TogetherOption = False,
     kernel: KernelOption = False,
     growth: GrowthOption = False,
+    mavlink: MavlinkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare searches on many problems, at equal evaluations and at equal CPU time.
@@ -83,6 +87,11 @@ def bench(
     with exit_codes():
         if kernel:
             measure_kernel(json)
+            return
+        if mavlink:
+            from gcs.cli.bench_mavlink import measure_mavlink
+
+            measure_mavlink(quick, json)
             return
         if growth:
             plan_many(quick, out, json)

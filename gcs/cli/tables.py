@@ -56,6 +56,7 @@ def results_table(title: str, sysids: list[int], done: dict[int, str], failed: d
 def status_table(reports: dict[int, Any]) -> Table:
     """What each vehicle says of itself."""
     table = _table("Vehicles", ["vehicle", "address", "mode", "armed", "state", "above home m", "airspeed m/s", "item"])
+    table.columns[1].no_wrap = True
     for sysid, report in reports.items():
         if isinstance(report, Exception):
             table.add_row(str(sysid), f"[red]{escape(str(report))}[/red]")
@@ -69,7 +70,7 @@ def status_table(reports: dict[int, Any]) -> Table:
             state,
             _shown(report["relative_altitude_m"], ".0f"),
             _shown(report["airspeed_m_s"], ".1f"),
-            f"{report['mission_item']}/{report['mission_items']}" if report["mission_item"] is not None else "-",
+            f"{report['mission_item']}/{report['mission_items']}" if report["mission_items"] else "-",
         )
     return table
 

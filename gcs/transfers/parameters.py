@@ -109,9 +109,14 @@ class ParameterRead(Transfer[ParameterValue]):
         self._ask(mavlink.MAVLink_param_request_read_message(*self._target, self._name.encode(), -1))
 
     def _take(self, message: Message) -> None:
-        if message.get_type() == "PARAM_VALUE" and message.param_id.rstrip("\0").upper() == self._name:
-            self._answered(message)
+        kind = message.get_type()
+        if kind not in ("PARAM_VALUE", "PARAM_ERROR") or message.param_id.rstrip("\0").upper() != self._name:
+            return
+        self._answered(message)
+        if kind == "PARAM_VALUE":
             self._take_value(ParameterValue(message.param_value, message.param_type))
+        elif message.error == mavlink.MAV_PARAM_ERROR_DOES_NOT_EXIST:
+            self.outcome = self._error(f"has no parameter {self._name}")
 
     def _take_value(self, value: ParameterValue) -> None:
         self.outcome = value

@@ -54,7 +54,7 @@ class ParameterServer:
         self._lists: dict[Station, _List] = {}
 
     def on_message(self, message: Message, peer: Peer) -> None:
-        """Take PARAM_REQUEST_LIST, PARAM_REQUEST_READ or PARAM_SET; unknown names and indices get silence."""
+        """Take PARAM_REQUEST_LIST, PARAM_REQUEST_READ or PARAM_SET; of what there is none, PARAM_ERROR says so."""
         match message.get_type():
             case "PARAM_REQUEST_LIST":
                 self._lists[Station.of(message, peer)] = _List(0, self._now())
@@ -63,9 +63,13 @@ class ParameterServer:
                 name = message.param_id.upper() if message.param_index < 0 else self._name_at(message.param_index)
                 if name in self._parameters:
                     self._send(self._value(name, self._parameters.index(name)), peer)
+                else:
+                    self._refuse_unknown(message, message.param_index, peer)
             case "PARAM_SET":
                 name = message.param_id.upper()
-                if name in self._parameters and not math.isnan(message.param_value):
+                if name not in self._parameters:
+                    self._refuse_unknown(message, -1, peer)
+                elif not math.isnan(message.param_value):
                     self._set(name, message.param_value, peer)
 
     def on_tick(self) -> None:
@@ -95,6 +99,13 @@ class ParameterServer:
             return
         for same in sorted(self._parameters.names_of(name), key=lambda same: same != name):
             self._broadcast(self._value(same, _NO_INDEX))
+
+    def _refuse_unknown(self, message: Message, index: int, peer: Peer) -> None:
+        """PARAM_ERROR spares a station that knows it the wait for an answer."""
+        station = Station.of(message, peer)
+        name = message.param_id.encode("ascii", "replace")
+        error = mavlink.MAV_PARAM_ERROR_DOES_NOT_EXIST
+        self._send(mavlink.MAVLink_param_error_message(station.sysid, station.compid, name, index, error), peer)
 
     def _name_at(self, index: int) -> str:
         return self._names[index] if index < len(self._names) else ""

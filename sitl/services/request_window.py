@@ -20,8 +20,6 @@ _LONGEST_S = 1.2
 """QGroundControl gives up after 1.5 s without a request."""
 
 _SHORTEST_S = 0.1
-_SHORTEST_STRICT_S = 0.25
-"""A strict station counts repeats, and goes back with a needless one."""
 
 _TRIES_AT_ONE_PACE = 2
 _DOUBLINGS = 1
@@ -217,10 +215,9 @@ class RequestWindow:
 
     def _wait_s(self) -> float:
         tries = self._stalls // _TRIES_AT_ONE_PACE
-        shortest_s = _SHORTEST_S if self.order is Order.ANY else _SHORTEST_STRICT_S
         if self._round_trip.smoothed_s is not None:
             tries = min(tries, _DOUBLINGS)
-        return self._round_trip.timeout_s(tries, shortest_s)
+        return self._round_trip.timeout_s(tries, _SHORTEST_S)
 
     def _overdue(self) -> list[int]:
         now_s, wait_s = self._now(), self._wait_s()
