@@ -59,7 +59,6 @@ class FilletedPath:
         y = y0 + chord * np.sin(heading0 + chord_angle)
         return x, y, heading, curvature
 
-
     def after(self, arc: Arc) -> "FilletedPath":
         """The path with an arc before it; its first corner is then the arc's start."""
         segments = self.segments.copy()
