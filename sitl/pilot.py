@@ -59,6 +59,7 @@ class Pilot:
         self, config: VehicleConfig, home_m: Vector, airspeed_limits: Callable[[], tuple[float, float, float]]
     ) -> None:
         self.flight = parked(home_m, 0.0)
+        self.tick = 0
         self.phase = Phase.PARKED
         self.stage: Stage | None = None
         self.errors: PathErrors | None = None
@@ -76,7 +77,7 @@ class Pilot:
     @property
     def airborne(self) -> bool:
         """Whether it is in the air."""
-        return self.phase == Phase.FLYING
+        return self.phase is Phase.FLYING
 
     @property
     def start(self) -> Start:
@@ -107,27 +108,27 @@ class Pilot:
             return stage.airspeed_m_s
         return clamp(cruise, slow, fast)
 
-    def fly(self, stage: Stage, tick: int) -> None:
+    def fly(self, stage: Stage) -> None:
         """Begin a stage, in the air or for the launch to come."""
         self.stage = stage
         self.errors = None
         if isinstance(stage, PathStage):
-            stage.started_tick = tick
+            stage.started_tick = self.tick
             self.flight = at_point(self.flight, START)
 
-    def resume_schedule(self, tick: int) -> None:
+    def resume_schedule(self) -> None:
         """Let the schedule of the path begin where the aircraft is on it."""
         if isinstance(self.stage, PathStage):
-            self.stage.started_tick = tick - round(self.stage.time_at_s(self.flight.point.s_m) / TICK_S)
+            self.stage.started_tick = self.tick - round(self.stage.time_at_s(self.flight.point.s_m) / TICK_S)
 
-    def launch(self, tick: int) -> None:
+    def launch(self) -> None:
         """Off the launcher, into the stage there is."""
         stage, air = self.stage, self.flight.air
         here = (air.x, air.y, air.h)
         self.phase = Phase.FLYING
         if isinstance(stage, PathStage):
             self.flight = launched(here, stage.tables, next(self._normals), self._aircraft)
-            stage.started_tick = tick
+            stage.started_tick = self.tick
             return
         assert isinstance(stage, ClimbOutStage)
         wind_x, wind_y = self._config.forecast_wind_m_s
@@ -139,21 +140,21 @@ class Pilot:
         """The wind of this tick."""
         self.flight = in_next_wind(self.flight, next(self._normals), self._aircraft)
 
-    def observe(self, tick: int) -> Correction:
+    def observe(self) -> Correction:
         """Find the deviations from the path and schedule; returns the own one, for the neighbours."""
         stage = self.stage
         self.errors = None
         if self.airborne and isinstance(stage, PathStage):
             air, velocity = self.flight.air, ground_velocity(self.flight)
-            time_s = (tick - stage.started_tick) * TICK_S
+            time_s = (self.tick - stage.started_tick) * TICK_S
             errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, self.flight.point, stage.tables)
             self.flight = at_point(self.flight, point)
             self.errors = errors
         errors_, joins = self.errors, self.in_formation
         own = Correction(
             self._config.sysid,
-            tick,
-            tick,
+            self.tick,
+            self.tick,
             joins,
             errors_.along if errors_ and joins else 0.0,
             errors_.along_rate if errors_ and joins else 0.0,
@@ -161,9 +162,9 @@ class Pilot:
         self._own.append(own)
         return own
 
-    def advance(self, heard: Mapping[int, Correction], tick: int) -> None:
+    def advance(self, heard: Mapping[int, Correction]) -> None:
         """Decide and move; what is reached is in `reached` then."""
-        if self.phase == Phase.ROLLING:
+        if self.phase is Phase.ROLLING:
             self.flight = rolled(self.flight, self._aircraft.terrain)
             if self.flight.air.V == 0.0:
                 self.phase, self.stage = Phase.PARKED, None
@@ -171,7 +172,7 @@ class Pilot:
         stage, errors, aircraft = self.stage, self.errors, self._aircraft
         if isinstance(stage, PathStage):
             assert errors is not None
-            wanted = path_accelerations(errors, self._ahead(errors, heard, tick))
+            wanted = path_accelerations(errors, self._ahead(errors, heard))
             if stage.on_final:
                 aircraft = self._flapped
                 wanted = flared(wanted, self.flight, self._ground_m(), aircraft.airframe)
@@ -184,22 +185,22 @@ class Pilot:
             self.flight = moved(self.flight, wanted, self._powerless)
             self._touch_down()
         elif stage is not None:
-            wanted = self._straight_or_round(stage, tick)
+            wanted = self._straight_or_round(stage)
             self.flight = moved(self.flight, wanted, aircraft)
             stage.note(self.flight)
 
-    def _straight_or_round(self, stage: CircleStage | ClimbOutStage, tick: int) -> Accelerations:
+    def _straight_or_round(self, stage: CircleStage | ClimbOutStage) -> Accelerations:
         if isinstance(stage, CircleStage):
-            return stage.accelerations(self.flight, self.airspeed_wanted_m_s, tick)
+            return stage.accelerations(self.flight, self.airspeed_wanted_m_s, self.tick)
         return stage.accelerations(self.flight, self.airspeed_wanted_m_s)
 
-    def _ahead(self, errors: PathErrors, heard: Mapping[int, Correction], tick: int) -> float:
+    def _ahead(self, errors: PathErrors, heard: Mapping[int, Correction]) -> float:
         """u_t: a plain autopilot's, or the law's with the corrections of neighbours that flew their schedule then."""
         if self._config.arm == "plain" or not self.in_formation:
             return speed_acceleration(self.airspeed_wanted_m_s, self.flight.air.V)
         then = self._own[0]
         corrections = 0.0
-        if then.in_formation and then.tick == tick - self._config.delay_ticks:
+        if then.in_formation and then.tick == self.tick - self._config.delay_ticks:
             for sysid, weight in self._config.weights.items():
                 other = heard.get(sysid)
                 if other is not None and other.in_formation:

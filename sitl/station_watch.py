@@ -1,4 +1,19 @@
-"""Noticing that the station has fallen silent, in wall time, and that it is back."""
+"""Noticing that the station has fallen silent, in wall time, and that it is back; what that leads to (FS_LONG_ACTN)."""
+
+from enum import IntEnum
+
+
+class StationAction(IntEnum):
+    """Values of FS_LONG_ACTN."""
+
+    CONTINUE = 0
+    RTL = 1
+    AUTO = 4
+
+    @property
+    def words(self) -> str:
+        """For the pilot."""
+        return "flying on" if self == StationAction.CONTINUE else self.name
 
 
 class StationWatch:

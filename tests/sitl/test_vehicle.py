@@ -68,7 +68,7 @@ def test_it_keeps_near_its_path_and_reaches_its_items_in_order(
 
 def test_it_arrives_on_schedule_in_wind_that_nobody_forecast(make_flown: MakeFlown, straight_mission: Mission) -> None:
     flown = airborne(make_flown(), straight_mission)
-    planned_s = flown.vehicle._itinerary.first_stage.reference.duration_s
+    planned_s = flown.vehicle._captain.itinerary.first_stage.reference.duration_s
     flown.fly(ARRIVED_TICKS)
     arrival_s = np.argmax(flown.rows()[:, 0] >= 3000) * TICK_S
     assert arrival_s == pytest.approx(planned_s, abs=1.0)
@@ -78,7 +78,7 @@ def test_a_plain_autopilot_is_late_in_that_wind(
     make_flown: MakeFlown, config: VehicleConfig, straight_mission: Mission
 ) -> None:
     flown = airborne(make_flown(replace(config, arm="plain", gusts="none")), straight_mission)
-    planned_s = flown.vehicle._itinerary.first_stage.reference.duration_s
+    planned_s = flown.vehicle._captain.itinerary.first_stage.reference.duration_s
     flown.fly(ARRIVED_TICKS)
     assert np.argmax(flown.rows()[:, 0] >= 3000) * TICK_S > planned_s + 4
 

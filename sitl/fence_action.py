@@ -1,4 +1,4 @@
-"""What a breach of the fence and the loss of the station lead to (FENCE_ACTION, FS_LONG_ACTN)."""
+"""What a breach of the fence leads to, and where (FENCE_ACTION, FENCE_RET_*)."""
 
 from collections.abc import Sequence
 from enum import IntEnum
@@ -25,19 +25,6 @@ class FenceAction(IntEnum):
     def words(self) -> str:
         """For the pilot."""
         return {0: "flying on", 1: "RTL", 8: "landing, or RTL"}.get(int(self), "GUIDED to the return point")
-
-
-class StationAction(IntEnum):
-    """Values of FS_LONG_ACTN."""
-
-    CONTINUE = 0
-    RTL = 1
-    AUTO = 4
-
-    @property
-    def words(self) -> str:
-        """For the pilot."""
-        return "flying on" if self == StationAction.CONTINUE else self.name
 
 
 def fence_return(
