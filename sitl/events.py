@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+CRITICAL, WARNING, NOTICE, INFO = 2, 4, 5, 6
+"""Of MAV_SEVERITY."""
+
 
 @dataclass(frozen=True)
 class ItemReached:

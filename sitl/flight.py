@@ -21,6 +21,9 @@ from sitl.ticks import TICK_S
 
 Vector = tuple[float, float, float]
 
+LAUNCH_SLOPE = 0.08
+"""Of a launch that no path prescribes."""
+
 
 class Aircraft(NamedTuple):
     """What does not change in flight."""
@@ -58,6 +61,13 @@ def launched(position: Vector, tables: ReferenceTables, normals: Normals, aircra
     _, _, heading, _, _ = path_at(0.0, 0, tables.segments)
     _, slope, _, _ = quadratic_at(0.0, 0, tables.altitude)
     _, speed, _, _ = quadratic_at(0.0, 0, tables.schedule)
+    return launched_along(position, heading, slope, speed, normals, aircraft)
+
+
+def launched_along(
+    position: Vector, heading: float, slope: float, speed: float, normals: Normals, aircraft: Aircraft
+) -> Flight:
+    """Off the catapult along a heading and a slope, at a speed over ground."""
     gusts = start_gusts(normals, aircraft.gusts)
     wind = wind_at(gusts, aircraft.gusts, heading, aircraft.steady_wind)
     velocity = (

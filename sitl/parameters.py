@@ -31,6 +31,7 @@ class Parameter:
         default: its value until it is set.
         low, high: what it may be set to.
         read_only: it tells, and cannot be told.
+        choices: the whole numbers that it may be set to; any within the limits when empty.
         same_as: the parameter whose value this is, under the name that older or newer firmware has for it.
     """
 
@@ -41,6 +42,11 @@ class Parameter:
     high: float
     read_only: bool = False
     same_as: str = ""
+    choices: frozenset[int] = frozenset()
+
+    def allows(self, value: float) -> bool:
+        """Whether it may have a value."""
+        return self.low <= value <= self.high and (not self.choices or value in self.choices)
 
 
 class Parameters:
@@ -96,6 +102,8 @@ class Parameters:
             value = float(round(value))
         if not one.low <= value <= one.high:
             raise InputError(f"{name} must be {one.low:g} to {one.high:g}, got {value:g}")
+        if not one.allows(value):
+            raise InputError(f"{name} must be one of {', '.join(map(str, sorted(one.choices)))}, got {value:g}")
         own = self._own_name(name)
         changed = self._set | {own: as_float32(value)}
         self._store.write(_PIECE, json.dumps(changed).encode())
@@ -124,7 +132,7 @@ class Parameters:
             one = self._definitions.get(name)
             if one is None or one.read_only or one.same_as:
                 continue  # of another version: no use, no harm
-            if isinstance(value, int | float) and one.low <= value <= one.high:
+            if isinstance(value, int | float) and one.allows(value):
                 self._values[name] = self._set[name] = as_float32(value)
             else:
                 bad.append(name)
@@ -140,7 +148,7 @@ def arduplane_parameters(sysid: int, airframe: Airframe) -> list[Parameter]:
         Parameter("AIRSPEED_MAX", REAL, fast, slow, fast),
         Parameter("AIRSPEED_MIN", REAL, slow, slow, fast),
         Parameter("ARMING_CHECK", INT32, 1, 0, 2**21),
-        Parameter("FENCE_ACTION", INT8, 1, 0, 8),
+        Parameter("FENCE_ACTION", INT8, 1, 0, 8, choices=frozenset({0, 1, 6, 7, 8})),
         Parameter("FENCE_ALT_MAX", REAL, 100.0, 0.0, 10_000.0),
         Parameter("FENCE_ALT_MIN", REAL, -10.0, -100.0, 10_000.0),
         Parameter("FENCE_ENABLE", INT8, 0, 0, 1),
@@ -150,18 +158,18 @@ def arduplane_parameters(sysid: int, airframe: Airframe) -> list[Parameter]:
         Parameter("FENCE_TOTAL", INT8, 0, 0, 255, read_only=True),
         Parameter("FENCE_TYPE", INT8, 4, 0, 15),
         Parameter("FS_GCS_ENABL", INT8, 0, 0, 3),
-        Parameter("FS_LONG_ACTN", INT8, 0, 0, 3),
+        Parameter("FS_LONG_ACTN", INT8, 0, 0, 4, choices=frozenset({0, 1, 4})),
         Parameter("FS_LONG_TIMEOUT", REAL, 20.0, 1.0, 300.0),
         Parameter("MAV_GCS_SYSID", INT16, 255, 1, 255),
         Parameter("MAV_SYSID", INT16, sysid, 1, 255),
         Parameter("MIS_RESTART", INT8, 0, 0, 1),
-        Parameter("MIS_TOTAL", INT16, 0, 0, 32767, read_only=True),
+        Parameter("MIS_TOTAL", INT16, 1, 0, 32767, read_only=True),
         Parameter("RALLY_INCL_HOME", INT8, 0, 0, 1),
         Parameter("RALLY_LIMIT_KM", REAL, 5.0, 0.0, 1000.0),
         Parameter("RALLY_TOTAL", INT8, 0, 0, 255, read_only=True),
         Parameter("ROLL_LIMIT_DEG", REAL, round(math.degrees(airframe.bank_max)), 0, 90, read_only=True),
         Parameter("RTL_ALTITUDE", REAL, 100.0, -1.0, 10_000.0),
-        Parameter("RTL_AUTOLAND", INT8, 0, 0, 3),
+        Parameter("RTL_AUTOLAND", INT8, 0, 0, 2),
         Parameter("RTL_RADIUS", INT16, 0, -32767, 32767),
         Parameter("SYSID_MYGCS", INT16, 255, 1, 255, same_as="MAV_GCS_SYSID"),
         Parameter("SYSID_THISMAV", INT16, sysid, 1, 255, same_as="MAV_SYSID"),

@@ -4,7 +4,7 @@
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,17 @@ SHORTEST_LEG_M = 0.01
 """Legs below this join two corners into one: the wire's own resolution is 1.1 cm."""
 SHARPEST_ARC_M = 1.0
 """Arcs that only fit with a smaller radius are left as a sharp corner."""
+
+
+@dataclass(frozen=True)
+class Arc:
+    """An arc that leads into a path: where it starts, heading there, curvature (positive to the left), length."""
+
+    x_m: float
+    y_m: float
+    heading: float
+    curvature: float
+    length_m: float
 
 
 @dataclass(frozen=True)
@@ -47,6 +58,20 @@ class FilletedPath:
         x = x0 + chord * np.cos(heading0 + chord_angle)
         y = y0 + chord * np.sin(heading0 + chord_angle)
         return x, y, heading, curvature
+
+    def after(self, arc: Arc) -> "FilletedPath":
+        """The path with an arc before it; its first corner is then the arc's start."""
+        segments = self.segments.copy()
+        segments[:, 0] += arc.length_m
+        first = [0.0, arc.x_m, arc.y_m, arc.heading, arc.curvature]
+        corner_s_m = self.corner_s_m + arc.length_m
+        corner_s_m[0] = 0.0
+        return replace(
+            self,
+            segments=np.vstack([first, segments]),
+            length_m=self.length_m + arc.length_m,
+            corner_s_m=corner_s_m,
+        )
 
 
 def path_at(s_m: float, index: int, segments: Any) -> tuple[float, float, float, float, int]:

@@ -12,7 +12,7 @@ from missions.commands import NAVIGATION, Command, Frame
 from missions.errors import InputError
 from missions.frame import LocalFrame
 from missions.mission import Mission, MissionItem
-from missions.reference.path import FilletedPath, fillet
+from missions.reference.path import Arc, FilletedPath, fillet
 from missions.reference.smoothing import moving_average, quadratics_at
 from missions.reference.wind_triangle import airspeed_on_track, ground_speed_on_track
 
@@ -128,6 +128,25 @@ class Speed(NamedTuple):
     over_ground: bool
 
 
+@dataclass(frozen=True)
+class Way:
+    """What a reference is made of.
+
+    Attributes:
+        corners_m: (x, y, z) of each corner, at least two.
+        seqs: mission item of each corner.
+        wanted: speed of each leg, one fewer than corners.
+        loiter_radius_m: asked for at the end; positive turns clockwise, 0 for the default.
+        loiter_z_m: altitude of that loiter above the datum.
+    """
+
+    corners_m: tuple[tuple[float, float, float], ...]
+    seqs: tuple[int, ...]
+    wanted: tuple[Speed, ...]
+    loiter_radius_m: float
+    loiter_z_m: float
+
+
 def build_reference(
     mission: Mission, frame: LocalFrame, airframe: Airframe, forecast_wind_m_s: tuple[float, float]
 ) -> Reference:
@@ -142,25 +161,18 @@ def build_reference(
         InputError: the mission has no way to fly, turns too sharply, leads too far away, or a leg cannot be flown
             against the forecast wind.
     """
-    corners: list[tuple[float, float, float]] = [_position(mission.home, mission, frame)]
+    corners: list[tuple[float, float, float]] = [position_m(mission.home, mission.home, frame)]
     seqs = [0]
     wanted: list[Speed] = []
-    cruise = speed = Speed(airframe.airspeed_cruise_m_s, over_ground=False)
+    speed = Speed(airframe.airspeed_cruise_m_s, over_ground=False)
     loiter: MissionItem | None = None
     for seq, item in enumerate(mission.items[1:], start=1):
         if item.command == Command.DO_CHANGE_SPEED:
-            if item.param2 == -2:
-                speed = cruise
-            elif item.param1 == 1 or (item.param1 == 0 and _flyable(item.param2, airframe)):
-                speed = Speed(item.param2, over_ground=item.param1 == 1)
+            speed = changed_speed(item, speed, airframe)
             continue
         if item.command not in NAVIGATION:
             continue
-        position = _position(item, mission, frame)
-        if item.lat_e7 == 0 and item.lon_e7 == 0:
-            position = (*corners[-1][:2], position[2])
-        if not math.hypot(*position[:2]) < FARTHEST_M:
-            raise InputError(f"mission item {seq}: more than {FARTHEST_M / 1000:g} km from the scenario's origin")
+        position = place_m(seq, item, mission.home, frame, corners[-1])
         if item.command == Command.NAV_LOITER_UNLIM:
             loiter = item
         if loiter is None or math.dist(position[:2], corners[-1][:2]) >= SAME_PLACE_M:
@@ -169,12 +181,30 @@ def build_reference(
             wanted.append(speed)
         if loiter is not None:
             break
-    points = np.array(corners)
+    loiter_z_m = position_m(loiter, mission.home, frame)[2] if loiter is not None else corners[-1][2]
+    way = Way(tuple(corners), tuple(seqs), tuple(wanted), loiter.param3 if loiter is not None else 0.0, loiter_z_m)
+    return reference_of(way, airframe, forecast_wind_m_s)
+
+
+def reference_of(
+    way: Way, airframe: Airframe, forecast_wind_m_s: tuple[float, float], lead_in: Arc | None = None
+) -> Reference:
+    """The reference of a way; with `lead_in`, of that arc and then the way, whose first corner is the arc's end.
+
+    Raises:
+        InputError: as `build_reference`.
+    """
+    seqs, wanted = way.seqs, way.wanted
+    points = np.array(way.corners_m)
     if len(points) < 2 or np.ptp(points[:, :2], axis=0).max() < SAME_PLACE_M:
         raise InputError("mission: no waypoint away from home; add a NAV_WAYPOINT")
 
     legs = np.diff(points[:, :2], axis=0)
     headings = np.arctan2(legs[:, 1], legs[:, 0])
+
+    def through(radius_m: float) -> FilletedPath:
+        path = fillet(points[:, :2], radius_m)
+        return path if lead_in is None else path.after(lead_in)
 
     def speeds(path: FilletedPath) -> tuple[FloatArray, FloatArray, FloatArray]:
         """(airspeed, ground speed, slope) of each leg."""
@@ -190,8 +220,8 @@ def build_reference(
         return airspeeds, ground_speeds, slopes
 
     # The radius follows from the ground speeds, and they, through the slopes, weakly from the arcs: correct once.
-    _, ground_speed, _ = speeds(fillet(points[:, :2], 0.0))
-    path = fillet(points[:, :2], fillet_radius_m(float(ground_speed.max())))
+    _, ground_speed, _ = speeds(through(0.0))
+    path = through(fillet_radius_m(float(ground_speed.max())))
     airspeed, ground_speed, slope = speeds(path)
     for k in np.flatnonzero(np.abs(path.corner_turn) > SHARPEST_TURN):
         raise InputError(
@@ -214,15 +244,40 @@ def build_reference(
         altitude=moving_average(path.corner_s_m[last_of_place], points[last_of_place, 2], ALTITUDE_WINDOW_M),
         schedule=schedule,
         duration_s=duration,
-        corner_seq=tuple(seqs),
+        corner_seq=seqs,
         corner_time_s=corner_time,
         leg_airspeed_m_s=airspeed,
         leg_ground_speed_m_s=ground_speed,
         leg_slope=slope,
-        target_m=corners[-1],
-        loiter_radius_m=_loiter_radius_m(loiter, float(ground_speed.max())),
-        loiter_z_m=_position(loiter, mission, frame)[2] if loiter is not None else corners[-1][2],
+        target_m=way.corners_m[-1],
+        loiter_radius_m=_loiter_radius_m(way.loiter_radius_m, float(ground_speed.max())),
+        loiter_z_m=way.loiter_z_m,
     )
+
+
+def changed_speed(item: MissionItem, speed: Speed, airframe: Airframe) -> Speed:
+    """The speed after a DO_CHANGE_SPEED item: unchanged when that asks for what is not flown."""
+    if item.param2 == -2:
+        return Speed(airframe.airspeed_cruise_m_s, over_ground=False)
+    if item.param1 == 1 or (item.param1 == 0 and _flyable(item.param2, airframe)):
+        return Speed(item.param2, over_ground=item.param1 == 1)
+    return speed
+
+
+def place_m(
+    seq: int, item: MissionItem, home: MissionItem, frame: LocalFrame, before_m: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    """(x, y, z) of mission item `seq`, at the place before where its latitude and longitude are 0.
+
+    Raises:
+        InputError: it is too far away for the projection.
+    """
+    position = position_m(item, home, frame)
+    if item.lat_e7 == 0 and item.lon_e7 == 0:
+        position = (*before_m[:2], position[2])
+    if not math.hypot(*position[:2]) < FARTHEST_M:
+        raise InputError(f"mission item {seq}: more than {FARTHEST_M / 1000:g} km from the scenario's origin")
+    return position
 
 
 def _flyable(airspeed_m_s: float, airframe: Airframe) -> bool:
@@ -250,15 +305,15 @@ def fillet_radius_m(ground_speed_m_s: float) -> float:
     return ground_speed_m_s**2 / (GRAVITY_M_S2 * math.tan(FILLET_BANK))
 
 
-def _loiter_radius_m(loiter: MissionItem | None, ground_speed_m_s: float) -> float:
+def _loiter_radius_m(wanted: float, ground_speed_m_s: float) -> float:
     """Radius of the final loiter: the item's own (param3), but never tighter than the fillets."""
     least = fillet_radius_m(ground_speed_m_s)
-    wanted = loiter.param3 if loiter is not None and math.isfinite(loiter.param3) else 0.0
+    wanted = wanted if math.isfinite(wanted) else 0.0
     return math.copysign(max(abs(wanted), least), wanted)
 
 
-def _position(item: MissionItem, mission: Mission, frame: LocalFrame) -> tuple[float, float, float]:
+def position_m(item: MissionItem, home: MissionItem, frame: LocalFrame) -> tuple[float, float, float]:
     """(x, y, z) of an item in the local frame."""
     x, y = frame.from_e7(item.lat_e7, item.lon_e7)
-    amsl = item.alt_m + (mission.home.alt_m if item.frame == Frame.GLOBAL_RELATIVE_ALT else 0.0)
+    amsl = item.alt_m + (home.alt_m if item.frame == Frame.GLOBAL_RELATIVE_ALT else 0.0)
     return x, y, amsl - frame.alt_m

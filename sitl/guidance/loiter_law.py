@@ -3,12 +3,12 @@
 import math
 from typing import NamedTuple
 
-from sitl.guidance.path_law import Accelerations, clamp, speed_acceleration, up_acceleration
+from sitl.guidance.path_law import Accelerations, speed_acceleration, up_acceleration
 
 COURSE_GAIN = 0.5
 """1/s, from course error to course rate."""
-LONGEST_LOOKAHEAD = 1.5
-"""Farther than this many radii outside the circle it is approached head on."""
+FAR = 1.5
+"""Farther than this many radii outside the circle it is approached straight along a tangent."""
 
 
 class Loiter(NamedTuple):
@@ -35,8 +35,11 @@ def loiter_accelerations(
     away = math.atan2(dy, dx)
     course = math.atan2(ground_velocity[1], ground_velocity[0])
     speed = math.sqrt(ground_velocity[0] * ground_velocity[0] + ground_velocity[1] * ground_velocity[1])
-    offset = clamp((distance - loiter.radius_m) / loiter.radius_m, -1.0, LONGEST_LOOKAHEAD)
-    wanted = away + loiter.turn * (0.5 * math.pi + math.atan(2.0 * offset))
+    offset = max((distance - loiter.radius_m) / loiter.radius_m, -1.0)
+    if offset > FAR:
+        wanted = away + loiter.turn * (math.pi - math.asin(loiter.radius_m / distance))
+    else:
+        wanted = away + loiter.turn * (0.5 * math.pi + math.atan(2.0 * offset))
     turn_by = math.atan2(math.sin(wanted - course), math.cos(wanted - course))
     circling = loiter.turn * speed / loiter.radius_m if abs(offset) < 0.5 else 0.0
     return Accelerations(

@@ -9,6 +9,7 @@ import pytest
 from gcs.metrics.formation_error import formation_error
 from gcs.metrics.tracks import tracks
 from gcs.truth import read_truths
+from missions.plan_type import PlanType
 from missions.scenario import load_scenario
 from planner.plan import plan
 from sitl.config import Arm
@@ -35,7 +36,7 @@ def fly(arm: Arm, folder: Path) -> float:
     vehicles = []
     for config, uav in zip(vehicle_configs(VEE, SwarmOptions(seed=1, delay_s=0.2, arm=arm)), PLAN.uavs, strict=True):
         vehicle = Vehicle(config, TruthWriter(folder / f"{config.sysid}.f64"))
-        vehicle.load_mission(uav.mission)
+        vehicle.load(PlanType.MISSION, uav.mission.items)
         vehicle.arm()
         vehicle.set_mode(Mode.AUTO)
         vehicles.append(vehicle)

@@ -39,6 +39,7 @@ SHARED: dict[ModuleType, tuple[str, ...]] = {
     sitl.aircraft.point_mass: ("point_mass_rates", "rk4_step", "air_velocity", "with_air_velocity"),
     sitl.flight: (
         "launched",
+        "launched_along",
         "in_next_wind",
         "ground_velocity",
         "path_accelerations",

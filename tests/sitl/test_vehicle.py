@@ -9,6 +9,7 @@ import pytest
 
 from missions.errors import InputError
 from missions.mission import Mission
+from missions.plan_type import PlanType
 from sitl.config import VehicleConfig
 from sitl.events import ItemReached
 from sitl.formation.correction import Correction
@@ -21,7 +22,7 @@ ARRIVED_TICKS = round(130 / TICK_S)
 
 
 def airborne(flown: Any, mission: Mission) -> Any:
-    flown.vehicle.load_mission(mission)
+    flown.vehicle.load(PlanType.MISSION, mission.items)
     assert flown.vehicle.arm() is None
     assert flown.vehicle.set_mode(Mode.AUTO) is None
     return flown
@@ -29,7 +30,7 @@ def airborne(flown: Any, mission: Mission) -> Any:
 
 def test_it_stays_on_its_launcher_until_armed_in_auto(make_flown: MakeFlown, straight_mission: Mission) -> None:
     flown = make_flown()
-    flown.vehicle.load_mission(straight_mission)
+    flown.vehicle.load(PlanType.MISSION, straight_mission.items)
     flown.fly(50)
     assert not flown.vehicle.airborne
     assert (flown.rows() == flown.rows()[0]).all()
@@ -67,7 +68,7 @@ def test_it_keeps_near_its_path_and_reaches_its_items_in_order(
 
 def test_it_arrives_on_schedule_in_wind_that_nobody_forecast(make_flown: MakeFlown, straight_mission: Mission) -> None:
     flown = airborne(make_flown(), straight_mission)
-    planned_s = flown.vehicle._progress.reference.duration_s
+    planned_s = flown.vehicle._captain.itinerary.first_stage.reference.duration_s
     flown.fly(ARRIVED_TICKS)
     arrival_s = np.argmax(flown.rows()[:, 0] >= 3000) * TICK_S
     assert arrival_s == pytest.approx(planned_s, abs=1.0)
@@ -77,7 +78,7 @@ def test_a_plain_autopilot_is_late_in_that_wind(
     make_flown: MakeFlown, config: VehicleConfig, straight_mission: Mission
 ) -> None:
     flown = airborne(make_flown(replace(config, arm="plain", gusts="none")), straight_mission)
-    planned_s = flown.vehicle._progress.reference.duration_s
+    planned_s = flown.vehicle._captain.itinerary.first_stage.reference.duration_s
     flown.fly(ARRIVED_TICKS)
     assert np.argmax(flown.rows()[:, 0] >= 3000) * TICK_S > planned_s + 4
 
@@ -87,7 +88,7 @@ def test_in_flight_every_limit_holds(make_flown: MakeFlown, config: VehicleConfi
     flown = airborne(make_flown(replace(config, gusts="moderate")), straight_mission)
     for _ in range(ARRIVED_TICKS):
         flown.fly(1)
-        controls = flown.vehicle._flight.controls
+        controls = flown.vehicle._pilot.flight.controls
         assert 0 <= controls.thrust <= airframe.static_thrust_n
         assert 0 <= controls.lift <= airframe.load_factor_max * airframe.mass_kg * 9.81
         assert abs(controls.bank) <= airframe.bank_max
@@ -165,10 +166,10 @@ def test_nobody_disarms_it_in_flight(make_flown: MakeFlown, straight_mission: Mi
 
 def test_a_mission_that_cannot_be_flown_leaves_the_old_one(make_flown: MakeFlown, straight_mission: Mission) -> None:
     vehicle = make_flown().vehicle
-    vehicle.load_mission(straight_mission)
+    vehicle.load(PlanType.MISSION, straight_mission.items)
     nowhere = Mission((straight_mission[0], straight_mission[0]))
     with pytest.raises(InputError):
-        vehicle.load_mission(nowhere)
+        vehicle.load(PlanType.MISSION, nowhere.items)
     assert vehicle.mission == straight_mission
 
 

@@ -1,0 +1,222 @@
+"""Who flies one vehicle, tick by tick: wind, its stage, the formation law, touchdown, the roll to a stop."""
+
+import math
+from collections import deque
+from collections.abc import Callable, Mapping
+from enum import Enum, auto
+
+from missions.environment.terrain import ground_height_m
+from missions.reference.reference import Speed
+from sitl.aircraft.gusts import NORMALS_PER_TICK
+from sitl.config import VehicleConfig
+from sitl.flight import (
+    LAUNCH_SLOPE,
+    Vector,
+    at_point,
+    ground_velocity,
+    in_next_wind,
+    launched,
+    launched_along,
+    make_aircraft,
+    moved,
+    parked,
+    path_accelerations,
+)
+from sitl.formation.correction import Correction
+from sitl.formation.law import correction, formation_acceleration
+from sitl.guidance.path_errors import START, PathErrors, path_errors
+from sitl.guidance.path_law import Accelerations, clamp, speed_acceleration
+from sitl.itinerary import Stage as MissionStage
+from sitl.itinerary import Start
+from sitl.landing import flared, rolled, touched_down, with_flaps
+from sitl.noise import Stream, normals
+from sitl.stages.circle import CircleStage
+from sitl.stages.path import PathStage
+from sitl.stages.straight import ClimbOutStage, GlideStage
+from sitl.ticks import TICK_S
+
+Stage = MissionStage | GlideStage
+
+
+class Phase(Enum):
+    """Where it is: on the launcher or where it has stopped, in the air, or on its wheels."""
+
+    PARKED = auto()
+    FLYING = auto()
+    ROLLING = auto()
+
+
+class Pilot:
+    """Flies stages.
+
+    Args:
+        config: of the vehicle.
+        home_m: where it stands.
+        airspeed_limits: the least and the greatest airspeed that are set, and the one to cruise at.
+    """
+
+    def __init__(
+        self, config: VehicleConfig, home_m: Vector, airspeed_limits: Callable[[], tuple[float, float, float]]
+    ) -> None:
+        self.flight = parked(home_m, 0.0)
+        self.tick = 0
+        self.phase = Phase.PARKED
+        self.stage: Stage | None = None
+        self.errors: PathErrors | None = None
+        self.commanded: Speed | None = None
+        self.reached: list[int] = []
+        self._config = config
+        self._airspeed_limits = airspeed_limits
+        self._aircraft = make_aircraft(config.airframe, config.terrain, config.gusts, config.steady_wind_m_s)
+        self._flapped = self._aircraft._replace(airframe=with_flaps(config.airframe))
+        self._powerless = self._aircraft._replace(airframe=config.airframe._replace(static_thrust_n=0.0))
+        self._normals = normals(config.seed, config.sysid, Stream.GUSTS, NORMALS_PER_TICK)
+        self._gains = config.gains if config.arm == "full" else config.gains._replace(k1=0.0, k2=0.0)
+        self._own: deque[Correction] = deque(maxlen=config.delay_ticks + 1)
+
+    @property
+    def airborne(self) -> bool:
+        """Whether it is in the air."""
+        return self.phase is Phase.FLYING
+
+    @property
+    def start(self) -> Start:
+        """Where its next stage would begin."""
+        air = self.flight.air
+        east, north, _ = ground_velocity(self.flight)
+        return Start((air.x, air.y, air.h), math.atan2(north, east) if self.airborne else None)
+
+    @property
+    def in_formation(self) -> bool:
+        """Whether it keeps its schedule, and neighbours' corrections count."""
+        return self.errors is not None and self.commanded is None and not self._on_final()
+
+    @property
+    def airspeed_wanted_m_s(self) -> float:
+        """What it is to fly at now."""
+        slow, fast, cruise = self._airspeed_limits()
+        if self.commanded is not None:
+            east, north, _ = ground_velocity(self.flight)
+            surplus = self.flight.air.V - math.hypot(east, north) if self.commanded.over_ground else 0.0
+            return clamp(self.commanded.m_s + surplus, slow, fast)
+        stage = self.stage
+        if isinstance(stage, PathStage):
+            return stage.airspeed_m_s(self.flight.point.s_m)
+        if isinstance(stage, GlideStage):
+            return stage.airspeed_m_s
+        if isinstance(stage, CircleStage) and stage.airspeed_m_s is not None:
+            return stage.airspeed_m_s
+        return clamp(cruise, slow, fast)
+
+    def fly(self, stage: Stage) -> None:
+        """Begin a stage, in the air or for the launch to come."""
+        self.stage = stage
+        self.errors = None
+        if isinstance(stage, PathStage):
+            stage.started_tick = self.tick
+            self.flight = at_point(self.flight, START)
+
+    def resume_schedule(self) -> None:
+        """Let the schedule of the path begin where the aircraft is on it."""
+        if isinstance(self.stage, PathStage):
+            self.stage.started_tick = self.tick - round(self.stage.time_at_s(self.flight.point.s_m) / TICK_S)
+
+    def launch(self) -> None:
+        """Off the launcher, into the stage there is."""
+        stage, air = self.stage, self.flight.air
+        here = (air.x, air.y, air.h)
+        self.phase = Phase.FLYING
+        if isinstance(stage, PathStage):
+            self.flight = launched(here, stage.tables, next(self._normals), self._aircraft)
+            stage.started_tick = self.tick
+            return
+        assert isinstance(stage, ClimbOutStage)
+        wind_x, wind_y = self._config.forecast_wind_m_s
+        tail = wind_x * math.cos(stage.course) + wind_y * math.sin(stage.course)
+        speed = max(self.airspeed_wanted_m_s + tail, self._config.airframe.airspeed_min_m_s)
+        self.flight = launched_along(here, stage.course, LAUNCH_SLOPE, speed, next(self._normals), self._aircraft)
+
+    def feel(self) -> None:
+        """The wind of this tick."""
+        self.flight = in_next_wind(self.flight, next(self._normals), self._aircraft)
+
+    def observe(self) -> Correction:
+        """Find the deviations from the path and schedule; returns the own one, for the neighbours."""
+        stage = self.stage
+        self.errors = None
+        if self.airborne and isinstance(stage, PathStage):
+            air, velocity = self.flight.air, ground_velocity(self.flight)
+            time_s = (self.tick - stage.started_tick) * TICK_S
+            errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, self.flight.point, stage.tables)
+            self.flight = at_point(self.flight, point)
+            self.errors = errors
+        errors_, joins = self.errors, self.in_formation
+        own = Correction(
+            self._config.sysid,
+            self.tick,
+            self.tick,
+            joins,
+            errors_.along if errors_ and joins else 0.0,
+            errors_.along_rate if errors_ and joins else 0.0,
+        )
+        self._own.append(own)
+        return own
+
+    def advance(self, heard: Mapping[int, Correction]) -> None:
+        """Decide and move; what is reached is in `reached` then."""
+        if self.phase is Phase.ROLLING:
+            self.flight = rolled(self.flight, self._aircraft.terrain)
+            if self.flight.air.V == 0.0:
+                self.phase, self.stage = Phase.PARKED, None
+            return
+        stage, errors, aircraft = self.stage, self.errors, self._aircraft
+        if isinstance(stage, PathStage):
+            assert errors is not None
+            wanted = path_accelerations(errors, self._ahead(errors, heard))
+            if stage.on_final:
+                aircraft = self._flapped
+                wanted = flared(wanted, self.flight, self._ground_m(), aircraft.airframe)
+            self.flight = moved(self.flight, wanted, aircraft)
+            self.reached += stage.passed(self.flight.point.s_m, self.flight.air.h)
+            if stage.on_final:
+                self._touch_down()
+        elif isinstance(stage, GlideStage):
+            wanted = flared(stage.accelerations(self.flight), self.flight, self._ground_m(), aircraft.airframe)
+            self.flight = moved(self.flight, wanted, self._powerless)
+            self._touch_down()
+        elif stage is not None:
+            wanted = self._straight_or_round(stage)
+            self.flight = moved(self.flight, wanted, aircraft)
+            stage.note(self.flight)
+
+    def _straight_or_round(self, stage: CircleStage | ClimbOutStage) -> Accelerations:
+        if isinstance(stage, CircleStage):
+            return stage.accelerations(self.flight, self.airspeed_wanted_m_s, self.tick)
+        return stage.accelerations(self.flight, self.airspeed_wanted_m_s)
+
+    def _ahead(self, errors: PathErrors, heard: Mapping[int, Correction]) -> float:
+        """u_t: a plain autopilot's, or the law's with the corrections of neighbours that flew their schedule then."""
+        if self._config.arm == "plain" or not self.in_formation:
+            return speed_acceleration(self.airspeed_wanted_m_s, self.flight.air.V)
+        then = self._own[0]
+        corrections = 0.0
+        if then.in_formation and then.tick == self.tick - self._config.delay_ticks:
+            for sysid, weight in self._config.weights.items():
+                other = heard.get(sysid)
+                if other is not None and other.in_formation:
+                    corrections += correction(
+                        then.along_m, then.along_rate_m_s, other.along_m, other.along_rate_m_s, weight, self._gains
+                    )
+        return formation_acceleration(errors, corrections, self._gains)
+
+    def _touch_down(self) -> None:
+        ground_m = self._ground_m()
+        if self.flight.air.h <= ground_m:
+            self.flight = touched_down(self.flight, ground_m)
+            self.phase, self.errors = Phase.ROLLING, None
+
+    def _ground_m(self) -> float:
+        return ground_height_m(self.flight.air.x, self.flight.air.y, self._aircraft.terrain)
+
+    def _on_final(self) -> bool:
+        return isinstance(self.stage, PathStage) and self.stage.on_final
