@@ -14,8 +14,9 @@ def test_one_is_read_by_name_in_any_case_and_by_index(bench: Any) -> None:
         (value,) = bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, name, index))
         assert (value.param_id, value.param_value) == ("WP_RADIUS", 90.0)
         assert (value.param_index, value.param_count, value.param_type) == (count - 1, count, 9)
-    assert bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, b"NONE", -1)) == []
-    assert bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, b"", count)) == []
+    for name, index in ((b"NONE", -1), (b"", count)):
+        (error,) = bench.tell(mavlink.MAVLink_param_request_read_message(3, 1, name, index))
+        assert (error.get_type(), error.param_index) == ("PARAM_ERROR", index)
 
 
 def test_a_list_begins_at_once_and_comes_in_parts_of_a_datagram(bench: Any) -> None:
@@ -61,7 +62,8 @@ def test_what_cannot_be_set_stays_with_a_word(bench: Any) -> None:
     assert value.param_value == 90.0
 
 
-def test_unknown_names_and_nan_get_silence(bench: Any) -> None:
-    assert bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"NONE", 30.0, 9)) == []
+def test_a_name_that_there_is_not_gets_an_error_and_nan_silence(bench: Any) -> None:
+    (error,) = bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"NONE", 30.0, 9))
+    assert (error.get_type(), error.param_id, error.error) == ("PARAM_ERROR", "NONE", 1)
     assert bench.tell(mavlink.MAVLink_param_set_message(3, 1, b"WP_RADIUS", math.nan, 9)) == []
     assert bench.vehicle.parameters["WP_RADIUS"] == 90.0
