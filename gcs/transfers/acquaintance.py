@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from gcs.transfers.unanswered import Unanswered
 from sitl.services.round_trip import RoundTrip
 
-_INITIAL_S = 0.75
-"""Time-out before a round trip has been measured: half of the MAVLink guide's, as what is asked may be repeated."""
+_INITIAL_S = 0.5
+"""Time-out before a round trip has been measured: a third of the MAVLink guide's, as what is asked may be repeated."""
 
 
 @dataclass

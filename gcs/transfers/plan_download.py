@@ -15,22 +15,24 @@ from sitl.services.mission_items import decode_item
 from sitl.services.opaque_id import received_opaque_id
 from sitl.services.peer import Message
 
-FIRST_WINDOW = 4
+FIRST_WINDOW = 8
 LARGEST_WINDOW = 32
 """Requests outstanding at a time: few at first, one more for each that is answered."""
 
 _BUSY_S = 10.0
 """A vehicle that denies a download while an upload runs is asked again for so long."""
 
+_TRIES_AT_ONE_PACE = 4
+"""What is lost on a radio is no sign of a queue: repeats slow down late."""
+
 _UNANSWERED_TRIES = 7
-"""A peer that leaves the lowest request unanswered so often, and all others, may want them in strict order."""
+"""A peer that leaves the lowest request unanswered so often, and all others meanwhile, may want strict order."""
 
 
 @dataclass
 class _Request:
     """A request that is outstanding."""
 
-    due_at_s: float
     sent_at_s: float
     tries: int = 0
 
@@ -38,8 +40,8 @@ class _Request:
 class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
     """Pulls one plan that a vehicle holds, with a window of requests; items may come in any order.
 
-    Each request is repeated by itself. A vehicle that wants them in strict order, and says so with INVALID_SEQUENCE or
-    an error or by its silence, is asked for one at a time, from the start.
+    Each request is repeated by itself. A vehicle that wants them in strict order is asked for one at a time: from the
+    start when it says so, with INVALID_SEQUENCE or an error, and from where it is when it shows it by silence.
 
     Args:
         plan_type, sysid, compid, send, now, known: as of PlanTransfer.
@@ -125,12 +127,11 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
             self.outcome = tuple(self._items[seq] for seq in range(len(self._items)))
             return
         now_s = self._now()
-        due_at_s = now_s + self._timeout_s(0)
         while self._pending and len(self._requests) < self._window:
             seq = self._pending.popleft()
-            self._requests[seq] = _Request(due_at_s, now_s)
+            self._requests[seq] = _Request(now_s)
             self._send_request(seq)
-        self.deadline_s = min(request.due_at_s for request in self._requests.values())
+        self.deadline_s = min(map(self._due_at_s, self._requests.values()))
 
     def _repeat(self) -> None:
         if self._plan is None:
@@ -138,17 +139,29 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
             return
         now_s = self._now()
         lowest = min(self._requests)
-        if not self._strict and self._requests[lowest].tries >= _UNANSWERED_TRIES and self._tries > _UNANSWERED_TRIES:
-            self._strict = True
-            self._begin_again(mavlink.MAV_MISSION_ERROR)
-            return
+        if not self._strict and self._requests[lowest].tries >= _UNANSWERED_TRIES:
+            quiet_s = now_s - self._progress_at_s
+            if quiet_s >= _UNANSWERED_TRIES * self._timeout_s(0):
+                self._narrow(lowest)
         for seq in sorted(self._requests):
             request = self._requests[seq]
-            if request.due_at_s <= now_s:
+            if self._due_at_s(request) <= now_s:
                 request.tries += 1
-                request.due_at_s = now_s + self._timeout_s(request.tries)
+                request.sent_at_s = now_s
                 self._send_request(seq)
-        self.deadline_s = min(request.due_at_s for request in self._requests.values())
+        self.deadline_s = min(map(self._due_at_s, self._requests.values()))
+
+    def _due_at_s(self, request: _Request) -> float:
+        """When it is overdue, by what is known of the round trip by now."""
+        return request.sent_at_s + self._timeout_s(request.tries // _TRIES_AT_ONE_PACE)
+
+    def _narrow(self, lowest: int) -> None:
+        """Ask for nothing but the lowest item that is missing: it is what a vehicle in strict order waits for."""
+        self._strict = True
+        self._window = 1
+        later = sorted(seq for seq in self._requests if seq != lowest)
+        self._pending.extendleft(reversed(later))
+        self._requests = {lowest: self._requests[lowest]}
 
     def _send_request(self, seq: int) -> None:
         self._send(mavlink.MAVLink_mission_request_int_message(*self._target, seq, self._plan_type))

@@ -78,6 +78,8 @@ class PlanUpload(PlanTransfer[Uploaded]):
         seq = message.seq
         if seq not in self._asked:
             if self._asked:
+                if len(self._asked) == 1:
+                    self._measure()
                 self._progress()
             else:
                 self._answered(message)
@@ -85,6 +87,8 @@ class PlanUpload(PlanTransfer[Uploaded]):
             self._last_asked = seq
             self._sent_at_s = self._now()
             self._set_deadline()
+        else:
+            self._tries = max(1, self._tries)  # what is sent again tells nothing of the round trip
         self._send_item(seq)
 
     def _take_ack(self, result: int) -> None:
@@ -93,6 +97,7 @@ class PlanUpload(PlanTransfer[Uploaded]):
         all_sent = not self._unsent
         if result == mavlink.MAV_MISSION_ACCEPTED:
             if all_sent:
+                self._measure()
                 self.outcome = Uploaded(confirmed=True)
         elif result == mavlink.MAV_MISSION_ERROR and all_sent and self._tries > 0:
             # ArduPilot's word for an item when no upload is running any more: it had answered the first time.

@@ -18,6 +18,7 @@ SILENT_S = 12.0
 STUCK_S = 30.0
 """A transfer with a vehicle that is heard, but makes no progress for so long, is given up."""
 
+_TRIES_AT_ONE_PACE = 3
 _DOUBLINGS = 2
 """Loss on a radio link is no sign of congestion: to wait longer and longer would only make the transfer longer."""
 
@@ -113,17 +114,21 @@ class Transfer(ABC, Generic[Result]):
 
     def _answered(self, message: Message) -> None:
         """The waiting message has been answered: note how long that took."""
-        if self._tries == 0:
-            self._known.round_trip.measure(self._now() - self._sent_at_s)
+        self._measure()
         self._heard(message)
         self._progress()
+
+    def _measure(self) -> None:
+        """What comes now answers what was sent last; how long that took is known if it was sent only once."""
+        if self._tries == 0:
+            self._known.round_trip.measure(self._now() - self._sent_at_s)
 
     def _heard(self, message: Message) -> None:
         seq = getattr(message, "seq", None)
         self._last_heard = (message.get_type() if seq is None else f"{message.get_type()} {seq}", self._now())
 
     def _set_deadline(self) -> None:
-        self.deadline_s = self._now() + self._timeout_s(self._tries)
+        self.deadline_s = self._now() + self._timeout_s(self._tries // _TRIES_AT_ONE_PACE)
 
     def _timeout_s(self, tries: int) -> float:
         return self._known.round_trip.timeout_s(min(tries, _DOUBLINGS), _SHORTEST_S)

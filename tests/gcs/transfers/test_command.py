@@ -83,5 +83,5 @@ def test_a_late_answer_to_an_earlier_command_is_not_taken_for_a_later_ones(bench
 def test_a_command_rejected_for_now_is_tried_again(bench: Bench) -> None:
     bench.answer(mavlink.MAV_RESULT_TEMPORARILY_REJECTED)
     assert bench.command.outcome is None
-    bench.wait(1.5)
+    bench.wait(1.2)
     assert len(bench.sent) == 2
