@@ -331,10 +331,9 @@ class Captain:
         self.pilot.fly(self._homeward(here))
 
     def _homeward(self, here: Vector) -> CircleStage:
+        """The circle at home, or at a rally point."""
         goal = refuge(here, self.home, self.rally, self._config.frame, self._parameters)
-        self.say(NOTICE, f"Returning to {goal.name}")
-        radius_m = self._radius_m(self._parameters["RTL_RADIUS"])
-        return self._guarded(goal.position_m, radius_m)
+        return self._guarded(goal, self._radius_m(self._parameters["RTL_RADIUS"]))
 
     def land_at(self, seq: int) -> None:
         """AUTO from a DO_LAND_START on."""

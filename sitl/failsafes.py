@@ -70,7 +70,8 @@ class Failsafes:
             captain.say(NOTICE, "Back inside the fence")
             return
         action = FenceAction(int(self._parameters["FENCE_ACTION"]))
-        captain.say(CRITICAL, f"Fence breached, {news.text}: {action.words}")
+        words = action.words if captain.armed else "engine off"
+        captain.say(CRITICAL, f"Fence breached, {news.text}: {words}")
         if action == FenceAction.REPORT or not captain.armed:
             return
         self.active = True

@@ -40,9 +40,8 @@ def fence_return(
     The altitude is FENCE_RET_ALT above home; without, half-way between the altitude fences, else RTL_ALTITUDE.
     """
     x, y, z = position_m(home, home, frame)
-    rtl = refuge(here_m, home, rally, frame, parameters)
     if parameters["FENCE_RET_RALLY"] == 1 and rally:
-        return rtl.position_m
+        return refuge(here_m, home, rally, frame, parameters)
     if areas is not None and areas.return_point_m is not None:
         x, y = areas.return_point_m
     kinds = int(parameters["FENCE_TYPE"])

@@ -23,6 +23,8 @@ Vector = tuple[float, float, float]
 
 LAUNCH_SLOPE = 0.08
 """Of a launch that no path prescribes."""
+STEEPEST_LAUNCH = 0.25
+"""However steep the path begins; the launch is at cruise then."""
 
 
 class Aircraft(NamedTuple):
@@ -61,6 +63,9 @@ def launched(position: Vector, tables: ReferenceTables, normals: Normals, aircra
     _, _, heading, _, _ = path_at(0.0, 0, tables.segments)
     _, slope, _, _ = quadratic_at(0.0, 0, tables.altitude)
     _, speed, _, _ = quadratic_at(0.0, 0, tables.schedule)
+    if abs(slope) > STEEPEST_LAUNCH:
+        slope = math.copysign(STEEPEST_LAUNCH, slope)
+        speed = aircraft.airframe.airspeed_cruise_m_s
     return launched_along(position, heading, slope, speed, normals, aircraft)
 
 

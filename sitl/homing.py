@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from missions.commands import Command
 from missions.errors import InputError
@@ -11,13 +10,6 @@ from missions.mission import MissionItem
 from missions.reference.reference import FARTHEST_M, position_m
 from sitl.flight import Vector
 from sitl.parameters import Parameters
-
-
-class Refuge(NamedTuple):
-    """A place to circle at, and what it is called."""
-
-    position_m: Vector
-    name: str
 
 
 def check_rally(items: Sequence[MissionItem], frame: LocalFrame) -> None:
@@ -31,20 +23,20 @@ def check_rally(items: Sequence[MissionItem], frame: LocalFrame) -> None:
 
 def refuge(
     here_m: Vector, home: MissionItem, rally: Sequence[MissionItem], frame: LocalFrame, parameters: Parameters
-) -> Refuge:
+) -> Vector:
     """Home at RTL_ALTITUDE above it (-1: at the present altitude), or the nearest rally point at its own.
 
     A rally point counts within RALLY_LIMIT_KM (0: any), and with RALLY_INCL_HOME only where home is not nearer.
     """
     x, y, z = position_m(home, home, frame)
     above_m = parameters["RTL_ALTITUDE"]
-    best = Refuge((x, y, here_m[2] if above_m < 0.0 else z + above_m), "home")
+    at_home = (x, y, here_m[2] if above_m < 0.0 else z + above_m)
     limit_m = 1000.0 * parameters["RALLY_LIMIT_KM"] or math.inf
     points = [position_m(item, home, frame) for item in rally]
     away_m = [math.dist(point[:2], here_m[:2]) for point in points]
     if not points or min(away_m) > limit_m:
-        return best
+        return at_home
     nearest = away_m.index(min(away_m))
     if parameters["RALLY_INCL_HOME"] == 1 and math.dist((x, y), here_m[:2]) < away_m[nearest]:
-        return best
-    return Refuge(points[nearest], f"rally point {nearest}")
+        return at_home
+    return points[nearest]

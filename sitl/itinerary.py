@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from missions.airframe import Airframe
@@ -12,11 +12,10 @@ from missions.errors import InputError
 from missions.frame import LocalFrame
 from missions.mission import Mission, MissionItem
 from missions.reference.lead_in import end_of, turn_towards
-from missions.reference.path import Arc
+from missions.reference.path import SHORTEST_LEG_M, Arc
 from missions.reference.reference import (
     SAME_PLACE_M,
     SHARPEST_TURN,
-    Reference,
     Speed,
     Way,
     changed_speed,
@@ -140,6 +139,7 @@ class Itinerary:
         """
         flyer, items = self._flyer, self.mission.items
         corners, seqs, wanted, marks = [start.position_m], [0], list[Speed](), list[Mark]()
+        lead_in: list[Arc] = []
         takeoff: TakeoffItem | None = None
         reached: list[int] = []
         jumped: set[int] = set()  # since the last waypoint: a loop without one is left
@@ -148,11 +148,14 @@ class Itinerary:
             z_m = position_m(loiter, self.mission.home, flyer.frame)[2] if loiter is not None else corners[-1][2]
             radius_m = loiter.param3 if loiter is not None else 0.0
             way = Way(tuple(corners), tuple(seqs), tuple(wanted), radius_m, z_m)
-            reference = self._reference(way, start)
+            reference = reference_of(way, flyer.airframe, flyer.wind_m_s, *lead_in)
             lands = items[seqs[-1]].command == Command.NAV_LAND
             return PathStage(reference, marks, after, takeoff=takeoff, loiter_seq=loiter_seq, lands=lands)
 
         def add(seq: int, place: Vector, speed: Speed, at: Mark) -> None:
+            if start.course is not None and len(corners) == 1:
+                lead_in.append(self._lead_in(start, place, speed))
+                corners[0] = (*end_of(lead_in[0]), start.position_m[2])
             corners.append(place)
             seqs.append(seq)
             wanted.append(speed)
@@ -221,24 +224,16 @@ class Itinerary:
         ends = mark.seq >= len(items)
         return path(mark, loiter_seq=seqs[-1] if ends else None), reached, mark
 
-    def _reference(self, way: Way, start: Start) -> Reference:
-        flyer = self._flyer
-        if start.course is None:
-            return reference_of(way, flyer.airframe, flyer.wind_m_s)
-        arc = self._lead_in(way, start.course)
-        led = replace(way, corners_m=((*end_of(arc), start.position_m[2]), *way.corners_m[1:]))
-        return reference_of(led, flyer.airframe, flyer.wind_m_s, arc)
-
-    def _lead_in(self, way: Way, course: float) -> Arc:
+    def _lead_in(self, start: Start, place: Vector, speed: Speed) -> Arc:
         """The turn on to the first leg, tighter when it would end just where that leg does."""
-        flyer, (x, y, _) = self._flyer, way.corners_m[0]
-        airspeed = max(flyer.airframe.airspeed_cruise_m_s, way.wanted[0].m_s)
-        radius_m = fillet_radius_m(min(airspeed, flyer.airframe.airspeed_max_m_s) + math.hypot(*flyer.wind_m_s))
-        target = way.corners_m[1][:2]
-        arc = turn_towards(x, y, course, target, radius_m)
-        return (
-            arc if math.dist(end_of(arc), target) > SAME_PLACE_M else turn_towards(x, y, course, target, radius_m / 2)
-        )
+        flyer, (x, y, _) = self._flyer, start.position_m
+        airspeed = min(max(flyer.airframe.airspeed_cruise_m_s, speed.m_s), flyer.airframe.airspeed_max_m_s)
+        radius_m = fillet_radius_m(airspeed + math.hypot(*flyer.wind_m_s))
+        course = start.course or 0.0
+        arc = turn_towards(x, y, course, place[:2], radius_m)
+        if math.dist(end_of(arc), place[:2]) <= SAME_PLACE_M:
+            return turn_towards(x, y, course, place[:2], radius_m / 2.0)
+        return arc
 
     def _check(self, start_m: Vector) -> Stage:
         """Build every stage once, jumps not followed; returns the first, jumps followed."""
@@ -387,7 +382,7 @@ class Itinerary:
         """Whether the path would turn more sharply at its last corner, on to a place, than an arc can."""
         apart = [place]
         for corner in reversed(corners):
-            if math.dist(corner[:2], apart[-1][:2]) >= SAME_PLACE_M:
+            if math.dist(corner[:2], apart[-1][:2]) >= SHORTEST_LEG_M:
                 apart.append(corner)
             if len(apart) == 3:
                 (x2, y2, _), (x1, y1, _), (x0, y0, _) = apart

@@ -25,7 +25,7 @@ from sitl.flight import (
 from sitl.formation.correction import Correction
 from sitl.formation.law import correction, formation_acceleration
 from sitl.guidance.path_errors import START, PathErrors, path_errors
-from sitl.guidance.path_law import Accelerations, clamp, speed_acceleration
+from sitl.guidance.path_law import Accelerations, clamp, speed_acceleration, speed_before_height
 from sitl.itinerary import Stage as MissionStage
 from sitl.itinerary import Start
 from sitl.landing import flared, rolled, touched_down, with_flaps
@@ -185,7 +185,7 @@ class Pilot:
             self.flight = moved(self.flight, wanted, self._powerless)
             self._touch_down()
         elif stage is not None:
-            wanted = self._straight_or_round(stage)
+            wanted = speed_before_height(self._straight_or_round(stage), self.flight.air.V, aircraft.airframe)
             self.flight = moved(self.flight, wanted, aircraft)
             stage.note(self.flight)
 

@@ -26,7 +26,7 @@ class TerrainGuard:
     Args:
         terrain: below.
         turn_radius_m: of a circle up, where the way ahead is too steep.
-        warn: told once the altitude that is flown instead, metres above the datum.
+        warn: told once the altitude that it will take, metres above the datum.
     """
 
     def __init__(self, terrain: Terrain, turn_radius_m: float, warn: Callable[[float], None]) -> None:
@@ -36,6 +36,7 @@ class TerrainGuard:
         self._warned = False
         self._circle_floor_m: float | None = None
         self._floor_m = -math.inf
+        self._highest_m = -math.inf
         self._up: Loiter | None = None
 
     def above_ground(self, loiter: Loiter, flight: Flight, ground_velocity: Vector, tick: int) -> Loiter:
@@ -48,7 +49,7 @@ class TerrainGuard:
             return self._up
         z_m = max(loiter.z_m, self._circle_floor_m, self._floor_m)
         if z_m > loiter.z_m + 1.0:
-            self._tell(z_m)
+            self._tell()
         return loiter._replace(z_m=z_m)
 
     def floor_of(self, loiter: Loiter) -> float:
@@ -75,7 +76,7 @@ class TerrainGuard:
                 self._up = None
         elif away_m > 2.0 * loiter.radius_m and air.h < needed - TOO_LOW_M:
             self._up = self._circle_up(flight, math.atan2(velocity[1], velocity[0]), needed)
-            self._tell(self._up.z_m)
+            self._tell()
 
     def _needed(self, flight: Flight, course: float, distance_m: float) -> float:
         steps = min(max(math.ceil(distance_m / STEP_M), 1), MOST_STEPS)
@@ -85,6 +86,7 @@ class TerrainGuard:
             along_m = i * step_m
             ground = self._ground(flight.air.x + along_m * cos_course, flight.air.y + along_m * sin_course)
             needed = max(needed, ground - CLIMB_GRADIENT * along_m)
+            self._highest_m = max(self._highest_m, ground + CLEARANCE_M)
         return needed + CLEARANCE_M
 
     def _circle_up(self, flight: Flight, course: float, needed_m: float) -> Loiter:
@@ -106,7 +108,7 @@ class TerrainGuard:
     def _ground(self, x_m: float, y_m: float) -> float:
         return ground_height_m(x_m, y_m, self._terrain)
 
-    def _tell(self, z_m: float) -> None:
+    def _tell(self) -> None:
         if not self._warned:
             self._warned = True
-            self._warn(z_m)
+            self._warn(max(self._highest_m, self._circle_floor_m or 0.0))

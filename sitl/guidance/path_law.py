@@ -22,6 +22,10 @@ TAN_LATERAL_LIMIT = 0.8390996311772799
 """tan 40 deg: the lateral acceleration is limited to g times this."""
 LIMIT_TIME_S = 1.0
 """A speed limit is approached no faster than within this time."""
+SPEED_ROOM_M_S = 2.0
+"""So near to the limits of its airspeed, an aircraft that flies no plan cares more for that than for its altitude."""
+SPEED_ROOM_GAIN = 5.0
+"""1/s, from airspeed beyond that to climb acceleration."""
 UP_LIMIT_M_S2 = 6.0
 DOWN_LIMIT_M_S2 = -4.0
 
@@ -54,6 +58,14 @@ def up_acceleration(above: float, v_z: float, v_z_wanted: float) -> float:
 def speed_acceleration(airspeed_wanted: float, airspeed: float) -> float:
     """u_t of a plain autopilot: it holds an airspeed."""
     return SPEED_GAIN * (airspeed_wanted - airspeed)
+
+
+def speed_before_height(wanted: Accelerations, airspeed: float, airframe: Airframe) -> Accelerations:
+    """Climb or sink less than wanted where that costs or gains more speed than the limits leave room for."""
+    slow = airframe.airspeed_min_m_s + SPEED_ROOM_M_S
+    fast = airframe.airspeed_max_m_s - SPEED_ROOM_M_S
+    up = wanted.up - SPEED_ROOM_GAIN * (max(slow - airspeed, 0.0) - max(airspeed - fast, 0.0))
+    return Accelerations(wanted.ahead, wanted.left, up, wanted.heading)
 
 
 def limited(wanted: Accelerations, airspeed: float, v_z: float, airframe: Airframe) -> Accelerations:

@@ -49,7 +49,14 @@ SHARED: dict[ModuleType, tuple[str, ...]] = {
     sitl.formation.law: ("correction", "formation_acceleration"),
     sitl.guidance.loiter_law: ("loiter_accelerations",),
     sitl.guidance.path_errors: ("path_errors",),
-    sitl.guidance.path_law: ("clamp", "across_acceleration", "up_acceleration", "speed_acceleration", "limited"),
+    sitl.guidance.path_law: (
+        "clamp",
+        "across_acceleration",
+        "up_acceleration",
+        "speed_acceleration",
+        "speed_before_height",
+        "limited",
+    ),
 }
 FUNCTIONS = [getattr(module, name) for module, names in SHARED.items() for name in names]
 SAME_EVERYWHERE = {
