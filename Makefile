@@ -4,12 +4,13 @@ CANDIDATES := $(PYTHON) python3.11 python3.12 python3.13 python3.14 python3 pyth
 USABLE := import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))
 BIN := .venv/bin
 
-.PHONY: demo test lint types floors unit pictures clean
+.PHONY: demo test lint types floors unit soak pictures clean
 .DEFAULT_GOAL := help
 
 help:
 	@echo "make demo       set up, then plan, fly and report nine vehicles (scenario radars)"
 	@echo "make test       set up, then ruff, mypy, import-linter and pytest"
+	@echo "make soak       a million pieces of hostile traffic at each end; figures to runs/soak/soak.json"
 	@echo "make pictures   fly the shipped scenarios and renew the README's pictures"
 	@echo "make clean      remove .venv and caches"
 
@@ -30,6 +31,9 @@ floors: .venv/.tested
 
 unit: .venv/.tested
 	$(BIN)/pytest
+
+soak: .venv/.installed
+	$(BIN)/python -m gcs.bench.soak
 
 pictures: .venv/.installed
 	$(BIN)/python -m gcs.pictures docs/pictures
