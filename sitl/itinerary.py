@@ -36,6 +36,9 @@ LONGEST_PATH = 60
 """Corners of one path stage: a jump that goes round for ever is flown in pieces of this length."""
 ARRIVED_M = 20.0
 """A waypoint this near counts as reached when a stage begins in the air."""
+ANY_ARC_TURN = math.radians(45.0)
+TIGHTEST_ARC_M = 60.0
+"""Sharper turns than the one need room for an arc of the other, or the path is flown in two stages there."""
 LOWEST_CLIMB_OUT_M = 10.0
 SETTLED_RADII = 2.5
 SETTLED_Z_M = 40.0
@@ -379,7 +382,7 @@ class Itinerary:
 
     @staticmethod
     def _too_sharp(corners: list[Vector], place: Vector) -> bool:
-        """Whether the path would turn more sharply at its last corner, on to a place, than an arc can."""
+        """Whether the turn at the path's last corner, on to a place, is sharper than an arc there could be flown."""
         apart = [place]
         for corner in reversed(corners):
             if math.dist(corner[:2], apart[-1][:2]) >= SHORTEST_LEG_M:
@@ -387,7 +390,10 @@ class Itinerary:
             if len(apart) == 3:
                 (x2, y2, _), (x1, y1, _), (x0, y0, _) = apart
                 turn = math.atan2(y2 - y1, x2 - x1) - math.atan2(y1 - y0, x1 - x0)
-                return abs(math.remainder(turn, 2.0 * math.pi)) > SHARPEST_TURN - 1e-6
+                turn = abs(math.remainder(turn, 2.0 * math.pi))
+                room_m = min(math.hypot(x2 - x1, y2 - y1), math.hypot(x1 - x0, y1 - y0))
+                tight = turn > ANY_ARC_TURN and room_m < TIGHTEST_ARC_M * math.tan(0.5 * turn)
+                return tight or turn > SHARPEST_TURN - 1e-6
         return False
 
 

@@ -25,7 +25,14 @@ from sitl.flight import (
 from sitl.formation.correction import Correction
 from sitl.formation.law import correction, formation_acceleration
 from sitl.guidance.path_errors import START, PathErrors, path_errors
-from sitl.guidance.path_law import Accelerations, clamp, speed_acceleration, speed_before_height
+from sitl.guidance.path_law import (
+    PLANNED_ROOM_M_S,
+    SPEED_ROOM_M_S,
+    Accelerations,
+    clamp,
+    speed_acceleration,
+    speed_before_height,
+)
 from sitl.itinerary import Stage as MissionStage
 from sitl.itinerary import Start
 from sitl.landing import flared, rolled, touched_down, with_flaps
@@ -53,6 +60,15 @@ class Pilot:
         config: of the vehicle.
         home_m: where it stands.
         airspeed_limits: the least and the greatest airspeed that are set, and the one to cruise at.
+
+    Attributes:
+        tick: simulated time.
+        flight, phase: the state of the aircraft.
+        stage: what it flies.
+        errors: its deviations from the path of that, as of this tick.
+        in_formation: it keeps its schedule, and neighbours' corrections count.
+        commanded: a speed that goes before the stage's.
+        reached: mission items, until they are taken out.
     """
 
     def __init__(
@@ -64,6 +80,7 @@ class Pilot:
         self.stage: Stage | None = None
         self.errors: PathErrors | None = None
         self.commanded: Speed | None = None
+        self.in_formation = False
         self.reached: list[int] = []
         self._config = config
         self._airspeed_limits = airspeed_limits
@@ -87,11 +104,6 @@ class Pilot:
         return Start((air.x, air.y, air.h), math.atan2(north, east) if self.airborne else None)
 
     @property
-    def in_formation(self) -> bool:
-        """Whether it keeps its schedule, and neighbours' corrections count."""
-        return self.errors is not None and self.commanded is None and not self._on_final()
-
-    @property
     def airspeed_wanted_m_s(self) -> float:
         """What it is to fly at now."""
         slow, fast, cruise = self._airspeed_limits()
@@ -111,7 +123,7 @@ class Pilot:
     def fly(self, stage: Stage) -> None:
         """Begin a stage, in the air or for the launch to come."""
         self.stage = stage
-        self.errors = None
+        self.errors, self.in_formation = None, False
         if isinstance(stage, PathStage):
             stage.started_tick = self.tick
             self.flight = at_point(self.flight, START)
@@ -142,23 +154,19 @@ class Pilot:
 
     def observe(self) -> Correction:
         """Find the deviations from the path and schedule; returns the own one, for the neighbours."""
-        stage = self.stage
-        self.errors = None
-        if self.airborne and isinstance(stage, PathStage):
-            air, velocity = self.flight.air, ground_velocity(self.flight)
+        stage, flight = self.stage, self.flight
+        self.errors, self.in_formation = None, False
+        along = along_rate = 0.0
+        if isinstance(stage, PathStage) and self.phase is Phase.FLYING:
+            air, velocity = flight.air, ground_velocity(flight)
             time_s = (self.tick - stage.started_tick) * TICK_S
-            errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, self.flight.point, stage.tables)
-            self.flight = at_point(self.flight, point)
+            errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, flight.point, stage.tables)
+            self.flight = at_point(flight, point)
             self.errors = errors
-        errors_, joins = self.errors, self.in_formation
-        own = Correction(
-            self._config.sysid,
-            self.tick,
-            self.tick,
-            joins,
-            errors_.along if errors_ and joins else 0.0,
-            errors_.along_rate if errors_ and joins else 0.0,
-        )
+            if self.commanded is None and not stage.on_final:
+                self.in_formation = True
+                along, along_rate = errors.along, errors.along_rate
+        own = Correction(self._config.sysid, self.tick, self.tick, self.in_formation, along, along_rate)
         self._own.append(own)
         return own
 
@@ -173,11 +181,13 @@ class Pilot:
         if isinstance(stage, PathStage):
             assert errors is not None
             wanted = path_accelerations(errors, self._ahead(errors, heard))
+            wanted = speed_before_height(wanted, self.flight.air.V, PLANNED_ROOM_M_S, aircraft.airframe)
             if stage.on_final:
                 aircraft = self._flapped
                 wanted = flared(wanted, self.flight, self._ground_m(), aircraft.airframe)
-            self.flight = moved(self.flight, wanted, aircraft)
-            self.reached += stage.passed(self.flight.point.s_m, self.flight.air.h)
+            self.flight = flight = moved(self.flight, wanted, aircraft)
+            if reached := stage.passed(flight.point.s_m, flight.air.h):
+                self.reached += reached
             if stage.on_final:
                 self._touch_down()
         elif isinstance(stage, GlideStage):
@@ -185,7 +195,8 @@ class Pilot:
             self.flight = moved(self.flight, wanted, self._powerless)
             self._touch_down()
         elif stage is not None:
-            wanted = speed_before_height(self._straight_or_round(stage), self.flight.air.V, aircraft.airframe)
+            wanted = self._straight_or_round(stage)
+            wanted = speed_before_height(wanted, self.flight.air.V, SPEED_ROOM_M_S, aircraft.airframe)
             self.flight = moved(self.flight, wanted, aircraft)
             stage.note(self.flight)
 
@@ -213,10 +224,7 @@ class Pilot:
         ground_m = self._ground_m()
         if self.flight.air.h <= ground_m:
             self.flight = touched_down(self.flight, ground_m)
-            self.phase, self.errors = Phase.ROLLING, None
+            self.phase, self.errors, self.in_formation = Phase.ROLLING, None, False
 
     def _ground_m(self) -> float:
         return ground_height_m(self.flight.air.x, self.flight.air.y, self._aircraft.terrain)
-
-    def _on_final(self) -> bool:
-        return isinstance(self.stage, PathStage) and self.stage.on_final

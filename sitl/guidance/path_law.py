@@ -24,8 +24,10 @@ LIMIT_TIME_S = 1.0
 """A speed limit is approached no faster than within this time."""
 SPEED_ROOM_M_S = 2.0
 """So near to the limits of its airspeed, an aircraft that flies no plan cares more for that than for its altitude."""
+PLANNED_ROOM_M_S = -1.0
+"""One that does only beyond them, where no sound plan brings it."""
 SPEED_ROOM_GAIN = 5.0
-"""1/s, from airspeed beyond that to climb acceleration."""
+"""1/s, from airspeed beyond the room to climb acceleration."""
 UP_LIMIT_M_S2 = 6.0
 DOWN_LIMIT_M_S2 = -4.0
 
@@ -60,10 +62,10 @@ def speed_acceleration(airspeed_wanted: float, airspeed: float) -> float:
     return SPEED_GAIN * (airspeed_wanted - airspeed)
 
 
-def speed_before_height(wanted: Accelerations, airspeed: float, airframe: Airframe) -> Accelerations:
-    """Climb or sink less than wanted where that costs or gains more speed than the limits leave room for."""
-    slow = airframe.airspeed_min_m_s + SPEED_ROOM_M_S
-    fast = airframe.airspeed_max_m_s - SPEED_ROOM_M_S
+def speed_before_height(wanted: Accelerations, airspeed: float, room_m_s: float, airframe: Airframe) -> Accelerations:
+    """Climb or sink less than wanted where the airspeed is nearer than `room_m_s` to its limits."""
+    slow = airframe.airspeed_min_m_s + room_m_s
+    fast = airframe.airspeed_max_m_s - room_m_s
     up = wanted.up - SPEED_ROOM_GAIN * (max(slow - airspeed, 0.0) - max(airspeed - fast, 0.0))
     return Accelerations(wanted.ahead, wanted.left, up, wanted.heading)
 

@@ -1,5 +1,6 @@
 """A stage along a path: through waypoints, on schedule, to their end or to a touchdown."""
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -29,6 +30,11 @@ class PathStage:
         takeoff: the take-off it begins with.
         loiter_seq: the item to circle at its end; None when the mission goes on there.
         lands: its last corner is a touchdown.
+
+    Attributes:
+        done: its last corner has been passed.
+        on_final: it is on the leg to its touchdown.
+        started_tick: when its schedule began.
     """
 
     def __init__(
@@ -52,6 +58,8 @@ class PathStage:
         self._takeoff = takeoff
         self._corner_s_m: list[float] = reference.path.corner_s_m.tolist()
         self._next_corner = 1
+        self.on_final = lands and len(self._corner_s_m) == 2
+        self._next_s_m = math.inf if self.on_final else self._corner_s_m[1]
 
     @property
     def seq(self) -> int:
@@ -69,11 +77,6 @@ class PathStage:
         return self._takeoff is not None
 
     @property
-    def on_final(self) -> bool:
-        """It is on the leg to its touchdown."""
-        return self.lands and self._next_corner == len(self._corner_s_m) - 1
-
-    @property
     def _corner(self) -> int:
         return min(self._next_corner, len(self._corner_s_m) - 1)
 
@@ -87,15 +90,18 @@ class PathStage:
 
     def passed(self, s_m: float, z_m: float) -> list[int]:
         """The items reached since the last call, at an arc length and a height above the datum."""
+        if self._takeoff is None and s_m < self._next_s_m:
+            return []
         reached = []
-        over_corner = s_m >= self._corner_s_m[self._next_corner]
-        if self._takeoff is not None and (z_m >= self._takeoff.z_m or over_corner):
+        if self._takeoff is not None and (z_m >= self._takeoff.z_m or s_m >= self._next_s_m):
             reached.append(self._takeoff.seq)
             self._takeoff = None
-        while not self.done and not self.on_final and s_m >= self._corner_s_m[self._next_corner]:
+        while s_m >= self._next_s_m:
             reached.append(self.reference.corner_seq[self._next_corner])
             self._next_corner += 1
             self.done = self._next_corner == len(self._corner_s_m)
+            self.on_final = self.lands and self._next_corner == len(self._corner_s_m) - 1
+            self._next_s_m = math.inf if self.done or self.on_final else self._corner_s_m[self._next_corner]
         return reached
 
     def final_loiter(self) -> Loiter:
