@@ -8,7 +8,7 @@ from sitl.flight import Flight, Vector
 from sitl.guidance.loiter_law import Loiter
 from sitl.ticks import TICK_S
 
-CLEARANCE_M = 60.0
+CLEARANCE_M = 30.0
 CLIMB_GRADIENT = 0.08
 """What it can climb on the way, with something to spare."""
 LOOK_EVERY_TICKS = round(1.0 / TICK_S)

@@ -8,10 +8,15 @@ import pytest
 
 from missions.commands import Command, Frame
 from missions.mission import Mission, MissionItem
+from missions.plan_type import PlanType
 from missions.scenario import Scenario, load_scenario
 from sitl.config import VehicleConfig
+from sitl.events import ItemReached
 from sitl.formation.correction import Correction
+from sitl.modes import Mode
+from sitl.store import Store
 from sitl.swarm import SwarmOptions, vehicle_configs
+from sitl.ticks import TICK_S
 from sitl.truth import TruthWriter
 from sitl.vehicle import Vehicle
 
@@ -48,13 +53,61 @@ def straight_mission(vee: Scenario) -> Mission:
     )
 
 
-class Flown:
-    """A vehicle and its truth."""
+@pytest.fixture
+def place(vee: Scenario) -> Callable[..., MissionItem]:
+    """Items of a command with params, east and north of the lead's home (metres) and above it."""
 
-    def __init__(self, config: VehicleConfig, file: Path) -> None:
+    def make(command: int, east: float = 0.0, north: float = 0.0, z: float = 0.0, **params: float) -> MissionItem:
+        positional = command not in (Command.NAV_TAKEOFF, Command.DO_JUMP, Command.DO_CHANGE_SPEED)
+        lat_e7, lon_e7 = vee.frame.to_e7(east, north) if positional else (0, 0)
+        return MissionItem(command, Frame.GLOBAL_RELATIVE_ALT, lat_e7=lat_e7, lon_e7=lon_e7, alt_m=z, **params)
+
+    return make
+
+
+class Flown:
+    """A vehicle and its truth; `texts` and `reached` are what it has told since its start."""
+
+    def __init__(self, config: VehicleConfig, file: Path, store: Store | None = None) -> None:
         self._file = file
         self.truth = TruthWriter(file)
-        self.vehicle = Vehicle(config, self.truth)
+        self.vehicle = Vehicle(config, self.truth, store)
+        self.texts: list[str] = []
+        self.reached: list[int] = []
+        self.hear()
+
+    def hear(self) -> None:
+        """Take in what it has to tell."""
+        for event in self.vehicle.drain_events():
+            if isinstance(event, ItemReached):
+                self.reached.append(event.seq)
+            else:
+                self.texts.append(event.text)
+
+    def in_auto(self, *items: MissionItem) -> "Flown":
+        """With a mission of these items after home, armed, in AUTO."""
+        self.vehicle.load(PlanType.MISSION, (self.vehicle.home, *items))
+        assert self.vehicle.arm() is None
+        assert self.vehicle.set_mode(Mode.AUTO) is None
+        return self
+
+    def taken_off(self, altitude_m: float = 100.0, seconds: float = 60.0) -> "Flown":
+        """Circling after a take-off."""
+        assert self.vehicle.arm() is None
+        assert self.vehicle.take_off(altitude_m) is None
+        self.fly_s(seconds)
+        assert self.vehicle.airborne
+        return self
+
+    def fly_s(self, seconds: float) -> np.ndarray:
+        """Fly for some time; (n, 6) states, one a tick."""
+        states = []
+        for _ in range(round(seconds / TICK_S)):
+            self.vehicle.observe()
+            states.append(self.vehicle._pilot.flight.air)
+            self.vehicle.advance({})
+        self.hear()
+        return np.array(states)
 
     def fly(self, ticks: int, heard: Callable[[int], Mapping[int, Correction]] = lambda tick: {}) -> None:
         """Some ticks, with what the neighbours say at each."""
@@ -73,9 +126,9 @@ def make_flown(config: VehicleConfig, tmp_path: Path) -> Callable[..., Flown]:
     """Vehicles as configured, each with its own truth file."""
     made = 0
 
-    def make(changed: VehicleConfig | None = None) -> Flown:
+    def make(changed: VehicleConfig | None = None, store: Store | None = None) -> Flown:
         nonlocal made
         made += 1
-        return Flown(changed or config, tmp_path / f"{made}.f64")
+        return Flown(changed or config, tmp_path / f"{made}.f64", store)
 
     return make
