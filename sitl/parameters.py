@@ -74,7 +74,8 @@ class Parameters:
         return name in self._definitions
 
     def __getitem__(self, name: str) -> float:
-        return self._values[self._own_name(name)]
+        value = self._values.get(name)  # asked at each tick
+        return self._values[self._own_name(name)] if value is None else value
 
     def kind(self, name: str) -> int:
         """MAV_PARAM_TYPE of a parameter."""

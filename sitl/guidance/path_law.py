@@ -66,6 +66,8 @@ def speed_before_height(wanted: Accelerations, airspeed: float, room_m_s: float,
     """Climb or sink less than wanted where the airspeed is nearer than `room_m_s` to its limits."""
     slow = airframe.airspeed_min_m_s + room_m_s
     fast = airframe.airspeed_max_m_s - room_m_s
+    if slow <= airspeed <= fast:
+        return wanted
     up = wanted.up - SPEED_ROOM_GAIN * (max(slow - airspeed, 0.0) - max(airspeed - fast, 0.0))
     return Accelerations(wanted.ahead, wanted.left, up, wanted.heading)
 
