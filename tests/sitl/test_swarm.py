@@ -12,10 +12,12 @@ from pathlib import Path
 
 import pytest
 
+from gcs.swarm_clock import SwarmClock
 from missions.errors import InputError
 from missions.scenario import Scenario
 from sitl.reports import Ended
 from sitl.swarm import Swarm, SwarmOptions
+from sitl.zenoh_session import open_session
 
 OPTIONS = SwarmOptions(seed=1, delay_s=0.2)
 
@@ -30,9 +32,9 @@ def wait_until(condition: Callable[[], bool], timeout_s: float = 20.0) -> None:
 def alive(pid: int) -> bool:
     try:
         os.kill(pid, 0)
-    except ProcessLookupError:
+        return Path(f"/proc/{pid}/stat").read_text().split()[2] != "Z"
+    except (ProcessLookupError, FileNotFoundError):
         return False
-    return Path(f"/proc/{pid}/stat").read_text().split()[2] != "Z"
 
 
 def test_nine_start_answer_at_ports_of_their_own_and_end_as_told(vee: Scenario, tmp_path: Path) -> None:
@@ -121,9 +123,10 @@ def test_endpoints_end_in_good_order_when_their_station_is_killed(tmp_path: Path
 
 
 def test_a_vehicle_that_fails_is_named_and_those_in_its_process_fly_on(vee: Scenario, tmp_path: Path) -> None:
-    options = replace(OPTIONS, held=False, truth=tmp_path, count=3, per_process=3)
+    options = replace(OPTIONS, held=True, truth=tmp_path, count=3, per_process=3)
     (tmp_path / "2.f64").symlink_to("/dev/full")
-    with Swarm(vee, options) as swarm:
+    with Swarm(vee, options) as swarm, open_session(swarm.station_peer) as session:
+        SwarmClock(session, swarm.name, swarm.endpoints).release(swarm.endpoints)
         assert len({endpoint.process.pid for endpoint in swarm.endpoints.values()}) == 1
         failed = swarm.endpoints[2]
         wait_until(lambda: failed.obituary() is not None)
