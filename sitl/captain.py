@@ -7,11 +7,11 @@ from missions.commands import Command, Frame
 from missions.environment.terrain import ground_height_m
 from missions.errors import InputError
 from missions.mission import Mission, MissionItem
-from missions.reference.reference import FARTHEST_M, Speed, fillet_radius_m, position_m
+from missions.reference.reference import FARTHEST_M, Speed, position_m
+from sitl.circling import Circling
 from sitl.config import VehicleConfig
 from sitl.events import CRITICAL, INFO, NOTICE, WARNING, ItemReached, StatusText
 from sitl.flight import Vector
-from sitl.guidance.loiter_law import Loiter
 from sitl.homing import refuge
 from sitl.itinerary import Flyer, Itinerary, Stage
 from sitl.modes import Mode
@@ -23,7 +23,6 @@ from sitl.stages.mark import Mark
 from sitl.stages.path import PathStage
 from sitl.stages.straight import ClimbOutStage, GlideStage
 from sitl.take_off import climb_out
-from sitl.terrain_guard import TerrainGuard
 
 DEFAULT_SPEED = -2.0
 """DO_CHANGE_SPEED back to what was planned."""
@@ -60,7 +59,8 @@ class Captain:
         self._config = config
         self._parameters = parameters
         self._report = report
-        self.pilot = Pilot(config, self.home_m, self._airspeeds)
+        self._circling = Circling(config, parameters)
+        self.pilot = Pilot(config, self.home_m, self._circling.airspeeds)
         self.itinerary = self.planned(Mission((self.home,)))
         self.complete = False
         self._auto: Stage | None = None
@@ -90,7 +90,7 @@ class Captain:
         """Fly at another speed from now on, until the mode changes; -2 for the default."""
         if not self.pilot.airborne:
             return "Not flying"
-        slow, fast, _ = self._airspeeds()
+        slow, fast, _ = self._circling.airspeeds()
         if speed_m_s == DEFAULT_SPEED:
             self.pilot.commanded = None
             self.pilot.resume_schedule()
@@ -314,7 +314,9 @@ class Captain:
     def _end_here(self) -> None:
         """The mission is over where it is: go on circling, or begin to."""
         last = self.pilot.stage
-        loiter = last.loiter if isinstance(last, CircleStage) else self._loiter_here()
+        loiter = (
+            last.loiter if isinstance(last, CircleStage) else self._circling.loiter(self.pilot.start.position_m, 0.0)
+        )
         seq = len(self.itinerary.mission) - 1
         self._fly_auto(CircleStage(loiter, seq=seq, mark=Mark(seq + 1, self._mark.speed), complete=True))
 
@@ -333,7 +335,7 @@ class Captain:
     def _homeward(self, here: Vector) -> CircleStage:
         """The circle at home, or at a rally point."""
         goal = refuge(here, self.home, self.rally, self._config.frame, self._parameters)
-        return self._guarded(goal, self._radius_m(self._parameters["RTL_RADIUS"]))
+        return self._circling.guarded(goal, self._parameters["RTL_RADIUS"], self._warn_of_terrain)
 
     def land_at(self, seq: int) -> None:
         """AUTO from a DO_LAND_START on."""
@@ -354,7 +356,7 @@ class Captain:
             config.airframe,
             config.terrain,
             config.forecast_wind_m_s,
-            self._radius_m,
+            self._circling.loiter,
             self._homeward,
         )
         # A mission is begun from where it stands; one that comes while it flies, from home some day.
@@ -397,39 +399,16 @@ class Captain:
             return "not flying"
         return None if self.armed else "engine off"
 
-    def _airspeeds(self) -> tuple[float, float, float]:
-        """(least, greatest, cruise) airspeed that is set."""
-        slow, fast = sorted((self._parameters["AIRSPEED_MIN"], self._parameters["AIRSPEED_MAX"]))
-        return slow, fast, self._parameters["AIRSPEED_CRUISE"]
-
-    def _radius_m(self, asked_m: float) -> float:
-        """A circle's radius, positive clockwise: as asked, else WP_LOITER_RAD; never tighter than it can be flown."""
-        wanted = asked_m or self._parameters["WP_LOITER_RAD"]
-        _, fast, cruise = self._airspeeds()
-        least = fillet_radius_m(min(cruise, fast) + math.hypot(*self._config.forecast_wind_m_s))
-        return math.copysign(max(abs(wanted), least), wanted)
-
     def circle(self, place: Vector, radius_m: float) -> None:
         """Fly to a place and circle there; the radius is signed, 0 for the default."""
-        self.pilot.fly(self._guarded(place, self._radius_m(radius_m)))
+        self.pilot.fly(self._circling.guarded(place, radius_m, self._warn_of_terrain))
 
     def circle_here(self) -> None:
         """Circle where it is."""
-        self.pilot.fly(CircleStage(self._loiter_here(), guard=self._guard()))
+        self.circle(self.pilot.start.position_m, 0.0)
 
-    def _loiter_here(self) -> Loiter:
-        (x, y, z), radius_m = self.pilot.start.position_m, self._radius_m(0.0)
-        return Loiter(x, y, z, abs(radius_m), -1.0 if radius_m > 0 else 1.0)
-
-    def _guarded(self, place: Vector, radius_m: float) -> CircleStage:
-        x, y, z = place
-        return CircleStage(Loiter(x, y, z, abs(radius_m), -1.0 if radius_m > 0 else 1.0), guard=self._guard())
-
-    def _guard(self) -> TerrainGuard:
-        def warn(z_m: float) -> None:
-            self.say(WARNING, f"Terrain ahead: climbing to {z_m - self.home_m[2]:.0f} m above home")
-
-        return TerrainGuard(self._config.terrain, abs(self._radius_m(0.0)), warn)
+    def _warn_of_terrain(self, z_m: float) -> None:
+        self.say(WARNING, f"Terrain ahead: climbing to {z_m - self.home_m[2]:.0f} m above home")
 
     def say_refusal(self, reason: str | None) -> None:
         """Tell the stations why a failsafe could not do what it should."""

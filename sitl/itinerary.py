@@ -65,7 +65,7 @@ class Flyer:
     Attributes:
         frame, airframe, terrain: as in `VehicleConfig`.
         wind_m_s: forecast, (east, north).
-        loiter_radius_m: the radius flown for one that is asked for, 0 for the default; both signed as in MAVLink.
+        loiter: the circle flown round a place for a radius that is asked for, signed as in MAVLink, 0 for the default.
         returning: the circle at the end of a NAV_RETURN_TO_LAUNCH item, by where that begins.
     """
 
@@ -73,7 +73,7 @@ class Flyer:
     airframe: Airframe
     terrain: Terrain
     wind_m_s: tuple[float, float]
-    loiter_radius_m: Callable[[float], float]
+    loiter: Callable[[Vector, float], Loiter]
     returning: Callable[[Vector], CircleStage]
 
 
@@ -328,17 +328,16 @@ class Itinerary:
         if item.command == Command.NAV_RETURN_TO_LAUNCH:
             home = flyer.returning(start.position_m)
             return CircleStage(home.loiter, seq=mark.seq, mark=mark, guard=home.guard, complete=True)
-        x, y, z = self._place_m(mark.seq, item, start.position_m)
+        place = self._place_m(mark.seq, item, start.position_m)
         # LOITER_TO_ALT has its radius in param2.
         asked = item.param2 if item.command == Command.NAV_LOITER_TO_ALT else item.param3
-        radius_m = flyer.loiter_radius_m(asked if math.isfinite(asked) else 0.0)
         until = {
             Command.NAV_LOITER_TIME: Until(time_s=max(item.param1, 0.0)),
             Command.NAV_LOITER_TURNS: Until(turns=max(item.param1, 0.0)),
             Command.NAV_LOITER_TO_ALT: Until(altitude=True),
         }.get(Command(item.command), Until())
         return CircleStage(
-            Loiter(x, y, z, abs(radius_m), -1.0 if radius_m > 0 else 1.0),
+            flyer.loiter(place, asked if math.isfinite(asked) else 0.0),
             until,
             seq=mark.seq,
             airspeed_m_s=flyer.airframe.airspeed_cruise_m_s if mark.speed.over_ground else mark.speed.m_s,

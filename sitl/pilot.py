@@ -196,7 +196,9 @@ class Pilot:
             self._touch_down()
         elif stage is not None:
             wanted = self._straight_or_round(stage)
-            wanted = speed_before_height(wanted, self.flight.air.V, SPEED_ROOM_M_S, aircraft.airframe)
+            planned = isinstance(stage, CircleStage) and stage.guard is None
+            room_m_s = PLANNED_ROOM_M_S if planned else SPEED_ROOM_M_S
+            wanted = speed_before_height(wanted, self.flight.air.V, room_m_s, aircraft.airframe)
             self.flight = moved(self.flight, wanted, aircraft)
             stage.note(self.flight)
 

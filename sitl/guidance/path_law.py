@@ -23,9 +23,9 @@ TAN_LATERAL_LIMIT = 0.8390996311772799
 LIMIT_TIME_S = 1.0
 """A speed limit is approached no faster than within this time."""
 SPEED_ROOM_M_S = 2.0
-"""So near to the limits of its airspeed, an aircraft that flies no plan cares more for that than for its altitude."""
-PLANNED_ROOM_M_S = -1.0
-"""One that does only beyond them, where no sound plan brings it."""
+"""So near to the limits of its airspeed, what flies no mission cares more for that than for its altitude."""
+PLANNED_ROOM_M_S = -2.0
+"""What flies one does only so far beyond them, where no sound mission brings it."""
 SPEED_ROOM_GAIN = 5.0
 """1/s, from airspeed beyond the room to climb acceleration."""
 UP_LIMIT_M_S2 = 6.0
