@@ -15,6 +15,8 @@ from sitl.services.peer import Message
 
 WINDOW = 32
 """Missing parameters asked for at a time."""
+STARTS = 5
+"""How often a fetch begins, at most: anew each time that the vehicle has another number of parameters."""
 _REFUSALS = 2
 """A vehicle that answers a PARAM_SET so often with another value does not take it; the first may be a late word."""
 
@@ -43,6 +45,7 @@ class ParameterFetch(Transfer[dict[str, ParameterValue]]):
     ) -> None:
         super().__init__(sysid, compid, send, now, known)
         self._count: int | None = None
+        self._starts = 0
         self._found: dict[int, tuple[str, ParameterValue]] = {}
 
     def start(self) -> None:
@@ -53,11 +56,15 @@ class ParameterFetch(Transfer[dict[str, ParameterValue]]):
         if message.get_type() != "PARAM_VALUE" or message.param_index >= message.param_count:
             return
         if message.param_count != self._count:  # the first, or the vehicle has been restarted with others
+            self._starts += 1
+            if self._starts > STARTS:
+                self.outcome = self._error(f"says {self._count} parameters, and then {message.param_count}")
+                return
             self._count = int(message.param_count)
             self._found = {}
         if message.param_index in self._found:
             return
-        if self._found:
+        if self._found or self._starts > 1:
             self._heard(message)
             self._progress()
         else:
@@ -112,11 +119,17 @@ class ParameterRead(Transfer[ParameterValue]):
         kind = message.get_type()
         if kind not in ("PARAM_VALUE", "PARAM_ERROR") or message.param_id.rstrip("\0").upper() != self._name:
             return
-        self._answered(message)
         if kind == "PARAM_VALUE":
+            self._answered(message)
             self._take_value(ParameterValue(message.param_value, message.param_type))
-        elif message.error == mavlink.MAV_PARAM_ERROR_DOES_NOT_EXIST:
+            return
+        self._heard(message)
+        if message.error == mavlink.MAV_PARAM_ERROR_DOES_NOT_EXIST:
             self.outcome = self._error(f"has no parameter {self._name}")
+        else:
+            entry = mavlink.enums["MAV_PARAM_ERROR"].get(message.error)
+            reason = entry.name if entry is not None else f"error {message.error}"
+            self.outcome = self._error(f"parameter {self._name} refused with {reason}")
 
     def _take_value(self, value: ParameterValue) -> None:
         self.outcome = value

@@ -15,7 +15,7 @@ from sitl.services.mission_items import decode_item
 from sitl.services.opaque_id import received_opaque_id
 from sitl.services.peer import Message
 
-FIRST_WINDOW = 8
+FIRST_WINDOW = 16
 LARGEST_WINDOW = 32
 """Requests outstanding at a time: few at first, one more for each that is answered."""
 
@@ -25,15 +25,22 @@ _BUSY_S = 10.0
 _TRIES_AT_ONE_PACE = 4
 """What is lost on a radio is no sign of a queue: repeats slow down late."""
 
+_LAST_COPIES = 3
+"""When nothing else is left to ask for, a repeat is sent so often at once: messages are cheaper than a round trip more."""
+
+_LATER_ANSWERS = 3
+"""A request is lost once one that was sent so many later has been answered."""
+
 _UNANSWERED_TRIES = 7
 """A peer that leaves the lowest request unanswered so often, and all others meanwhile, may want strict order."""
 
 
 @dataclass
 class _Request:
-    """A request that is outstanding."""
+    """A request that is outstanding: when it was sent last, as the how manyth of all, and how often before."""
 
     sent_at_s: float
+    serial: int
     tries: int = 0
 
 
@@ -64,7 +71,8 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         self._window = FIRST_WINDOW
         self._items: dict[int, MissionItem] = {}
         self._pending: deque[int] = deque()
-        self._requests: dict[int, _Request] = {}
+        self._requests: dict[int, _Request] = {}  # in the order in which they were sent
+        self._serial = 0
 
     def _begin(self) -> None:
         self._plan = None
@@ -106,7 +114,15 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
             self._known.round_trip.measure(self._now() - request.sent_at_s)
         if not self._strict:
             self._window = min(LARGEST_WINDOW, self._window + 1)
+        if request is not None:
+            self._repeat_overtaken(request.serial)
         self._go_on()
+
+    def _repeat_overtaken(self, answered: int) -> None:
+        """Send again what was sent long enough before a request that has been answered."""
+        overtaken = [seq for seq, other in self._requests.items() if other.serial <= answered - _LATER_ANSWERS]
+        for seq in overtaken:
+            self._request_again(seq)
 
     def _take_error(self, result: int) -> None:
         out_of_order = result in (mavlink.MAV_MISSION_INVALID_SEQUENCE, mavlink.MAV_MISSION_ERROR)
@@ -126,15 +142,13 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
             self._send(mavlink.MAVLink_mission_ack_message(*self._target, accepted, self._plan_type))
             self.outcome = tuple(self._items[seq] for seq in range(len(self._items)))
             return
-        now_s = self._now()
         while self._pending and len(self._requests) < self._window:
-            seq = self._pending.popleft()
-            self._requests[seq] = _Request(now_s)
-            self._send_request(seq)
+            self._request(self._pending.popleft())
         self.deadline_s = min(map(self._due_at_s, self._requests.values()))
 
     def _repeat(self) -> None:
         if self._plan is None:
+            self._send(self._waiting)
             super()._repeat()
             return
         now_s = self._now()
@@ -143,12 +157,8 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
             quiet_s = now_s - self._progress_at_s
             if quiet_s >= _UNANSWERED_TRIES * self._timeout_s(0):
                 self._narrow(lowest)
-        for seq in sorted(self._requests):
-            request = self._requests[seq]
-            if self._due_at_s(request) <= now_s:
-                request.tries += 1
-                request.sent_at_s = now_s
-                self._send_request(seq)
+        for seq in [seq for seq, request in self._requests.items() if self._due_at_s(request) <= now_s]:
+            self._request_again(seq)
         self.deadline_s = min(map(self._due_at_s, self._requests.values()))
 
     def _due_at_s(self, request: _Request) -> float:
@@ -163,8 +173,15 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         self._pending.extendleft(reversed(later))
         self._requests = {lowest: self._requests[lowest]}
 
-    def _send_request(self, seq: int) -> None:
-        self._send(mavlink.MAVLink_mission_request_int_message(*self._target, seq, self._plan_type))
+    def _request(self, seq: int, tries: int = 0) -> None:
+        self._serial += 1
+        self._requests[seq] = _Request(self._now(), self._serial, tries)
+        message = mavlink.MAVLink_mission_request_int_message(*self._target, seq, self._plan_type)
+        for _ in range(_LAST_COPIES if tries > 0 and not self._pending else 1):
+            self._send(message)
+
+    def _request_again(self, seq: int) -> None:
+        self._request(seq, self._requests.pop(seq).tries + 1)
 
     def _give_up(self) -> "tuple[MissionItem, ...] | TransferError":
         return self._stopped()

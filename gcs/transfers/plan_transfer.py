@@ -27,6 +27,7 @@ _HINTS = {
     int(mavlink.MAV_MISSION_UNSUPPORTED): "it cannot fly that",
     int(mavlink.MAV_MISSION_OPERATION_CANCELLED): "it gave up waiting, each time; check the link",
 }
+_UNREADY = "it is not ready to take any items"
 _NOT_READY = re.compile(r"\b0 items")
 """ArduPilot has no room for any item until it is ready: "Only 0 items are supported"."""
 
@@ -59,6 +60,7 @@ class PlanTransfer(Transfer[Result]):
         self._plan_type = plan_type
         self._starts = 0
         self._began_at_s = now()
+        self._taken_up = False
         self._refused = False
         self._not_ready = False
 
@@ -66,6 +68,7 @@ class PlanTransfer(Transfer[Result]):
         """Send the message that a transfer begins with."""
         self._starts += 1
         self._began_at_s = self._now()
+        self._taken_up = False
         self._begin()
 
     def cancel(self) -> None:
@@ -93,6 +96,10 @@ class PlanTransfer(Transfer[Result]):
             self._heard(message)
             self._take_plan_message(kind, message)
 
+    def _progress(self) -> None:
+        self._taken_up = True
+        super()._progress()
+
     def _begin_again(self, result: int) -> None:
         """Begin once more, unless it has done so often enough; then the outcome is this refusal."""
         if self._starts < STARTS:
@@ -114,23 +121,24 @@ class PlanTransfer(Transfer[Result]):
 
     def _is_late(self) -> bool:
         """Whether a refusal may still belong to the start before this one."""
-        answered = self._progress_at_s >= self._began_at_s
-        return self._starts > 1 and not answered and self._now() - self._began_at_s < self._timeout_s(0)
+        return self._starts > 1 and not self._taken_up and self._now() - self._began_at_s < self._timeout_s(0)
 
     def _may_pass(self, result: int) -> bool:
         """Whether a refusal is one for the time being: then the last message is sent again after a pause."""
-        return result == mavlink.MAV_MISSION_NO_SPACE and self._not_ready
+        waited_s = self._now() - self._progress_at_s
+        return result == mavlink.MAV_MISSION_NO_SPACE and self._not_ready and waited_s < self.stuck_s
 
     def _refusal(self, result: int) -> TransferError:
         entry = mavlink.enums["MAV_MISSION_RESULT"].get(result)
         name = entry.name if entry is not None else f"result {result}"
-        hint = f" ({_HINTS[result]})" if result in _HINTS else ""
-        return self._error(f"{self._name} refused at {self._where()} with {name}{hint}")
+        unready = result == mavlink.MAV_MISSION_NO_SPACE and self._not_ready
+        hint = _UNREADY if unready else _HINTS.get(result)
+        return self._error(f"{self._name} refused at {self._where()} with {name}" + (f" ({hint})" if hint else ""))
 
     def _stopped(self) -> TransferError:
         """The error when there is no hope; the vehicle is told, should it still listen."""
         self.cancel()
-        reason = "it is not ready to take any items" if self._not_ready else "no answer; check the link and try again"
+        reason = _UNREADY if self._not_ready else "no answer; check the link and try again"
         return self._error(f"{self._name} stopped at {self._where()}: {reason}")
 
     @property

@@ -19,11 +19,12 @@ STUCK_S = 30.0
 """A transfer with a vehicle that is heard, but makes no progress for so long, is given up."""
 
 _TRIES_AT_ONE_PACE = 3
-_DOUBLINGS = 2
-"""Loss on a radio link is no sign of congestion: to wait longer and longer would only make the transfer longer."""
+_DOUBLINGS = 1
+"""Loss on a radio link is no sign of congestion: to wait much longer would only make the transfer longer."""
 
 _SHORTEST_S = 0.1
-"""The least time that a vehicle is given for an answer, however quick the link."""
+_LONGEST_S = 5.0
+"""The least and the most time that a vehicle is given for an answer, however quick or slow the link."""
 
 
 class Transfer(ABC, Generic[Result]):
@@ -131,7 +132,7 @@ class Transfer(ABC, Generic[Result]):
         self.deadline_s = self._now() + self._timeout_s(self._tries // _TRIES_AT_ONE_PACE)
 
     def _timeout_s(self, tries: int) -> float:
-        return self._known.round_trip.timeout_s(min(tries, _DOUBLINGS), _SHORTEST_S)
+        return min(_LONGEST_S, self._known.round_trip.timeout_s(min(tries, _DOUBLINGS), _SHORTEST_S))
 
     def _error(self, what: str) -> TransferError:
         """An error that names the vehicle and what was last heard of it."""

@@ -1,6 +1,7 @@
 """Both ends of a transfer over an in-memory link that loses what it is told to."""
 
 import heapq
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -101,7 +102,8 @@ class LossyLink:
             heapq.heappush(self._in_flight, (due_s, self._counter, way, frame))
 
     def _step(self, transfer: Transfer[Any]) -> None:
-        self.time_s += 0.01
+        arrives_s = self._in_flight[0][0] if self._in_flight else math.inf
+        self.time_s = max(self.time_s, min(self.time_s + 0.01, arrives_s))
         while self._in_flight and self._in_flight[0][0] <= self.time_s:
             _, _, way, frame = heapq.heappop(self._in_flight)
             if way == "up":
@@ -114,6 +116,50 @@ class LossyLink:
         transfer.on_tick()
         self.server.on_tick()
         self.parameters.on_tick()
+
+
+class Scripted:
+    """A transfer with a vehicle that says what a test makes it say; time is simulated.
+
+    Attributes:
+        sent: (kind, seq) of what the transfer has sent; seq is the type of a MISSION_ACK, None where there is none.
+    """
+
+    def __init__(self) -> None:
+        self.time_s = 0.0
+        self.sent: list[tuple[str, int | None]] = []
+        self.known = Acquaintance()
+        self._transfer: Transfer[Any] | None = None
+        self._ours, self._theirs = Codec(station.SYSID, station.COMPID), Codec(3, 1)
+
+    def link(self) -> tuple[Any, ...]:
+        """The last arguments of a transfer."""
+        return (3, 1, self._send, lambda: self.time_s, self.known)
+
+    def start(self, transfer: Transfer[Any]) -> None:
+        self._transfer = transfer
+        transfer.start()
+
+    def say(self, message: Any) -> None:
+        """The vehicle says something."""
+        assert self._transfer is not None
+        self._transfer.on_message(self._ours.feed(self._theirs.pack(message))[0])
+
+    def wait(self, seconds: float) -> None:
+        """Time passes."""
+        assert self._transfer is not None
+        end_s = self.time_s + seconds
+        while self.time_s < end_s:
+            self.time_s += 0.05
+            self._transfer.on_tick()
+
+    def _send(self, message: Any) -> None:
+        self.sent.append((message.get_type(), getattr(message, "seq", getattr(message, "type", None))))
+
+
+@pytest.fixture
+def scripted() -> Scripted:
+    return Scripted()
 
 
 @pytest.fixture
