@@ -1,4 +1,5 @@
-"""`make soak`: hostile traffic at full size, a process an end; writes the figures and fails when an end has grown."""
+"""`make soak`: hostile traffic and lossy links at full size; writes the figures, and fails when an end has grown or
+an upload has not come through."""
 
 import json
 import sys
@@ -8,23 +9,29 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from gcs.bench.fuzz import fuzz_endpoint, fuzz_station
+from gcs.bench.lossy_transfers import measure_transfers
 
 PIECES = 1_000_000
 SEED = 1
 MOST_GROWN_MB = 20.0
+LOSSES = (0.0, 0.1, 0.25, 0.4)
+UPLOADS = 100
 
 
 def soak(out: Path) -> int:
-    """Fuzz both ends, write `soak.json` into a folder; the exit code: 0 when neither has grown."""
+    """Do it all and write `soak.json` into a folder; the exit code: 0 when nothing fell short."""
     ends = {"endpoint": fuzz_endpoint, "station": fuzz_station}
     with ProcessPoolExecutor(len(ends), mp_context=get_context("spawn")) as workers:
         running = {name: workers.submit(fuzz, PIECES, SEED) for name, fuzz in ends.items()}
-        figures = {name: asdict(future.result()) for name, future in running.items()}
+        transfers = [asdict(measured) for measured in workers.map(measure_transfers, LOSSES, [UPLOADS] * len(LOSSES))]
+        fuzzed = {name: asdict(future.result()) for name, future in running.items()}
+    figures = {**fuzzed, "transfers": transfers}
     out.mkdir(parents=True, exist_ok=True)
     text = json.dumps(figures, indent=1)
     (out / "soak.json").write_text(text + "\n", encoding="utf-8")
     print(text)
-    return int(any(end["grown_mb"] > MOST_GROWN_MB for end in figures.values()))
+    grown = any(end["grown_mb"] > MOST_GROWN_MB for end in fuzzed.values())
+    return int(grown or any(measured["failed"] for measured in transfers))
 
 
 if __name__ == "__main__":

@@ -25,8 +25,8 @@ _BUSY_S = 10.0
 _TRIES_AT_ONE_PACE = 4
 """What is lost on a radio is no sign of a queue: repeats slow down late."""
 
-_LAST_COPIES = 3
-"""When nothing else is left to ask for, a repeat is sent so often at once: messages are cheaper than a round trip more."""
+_COPIES, _LAST_COPIES = 2, 3
+"""A repeat is sent so often at once, and when nothing else is left to ask for: cheaper than another round trip."""
 
 _LATER_ANSWERS = 3
 """A request is lost once one that was sent so many later has been answered."""
@@ -177,7 +177,8 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         self._serial += 1
         self._requests[seq] = _Request(self._now(), self._serial, tries)
         message = mavlink.MAVLink_mission_request_int_message(*self._target, seq, self._plan_type)
-        for _ in range(_LAST_COPIES if tries > 0 and not self._pending else 1):
+        copies = _COPIES if self._pending else _LAST_COPIES
+        for _ in range(copies if tries > 0 else 1):
             self._send(message)
 
     def _request_again(self, seq: int) -> None:

@@ -1,6 +1,5 @@
 """Both ends of the transfers over a link that loses, repeats and reorders messages of every kind."""
 
-import random
 from dataclasses import replace
 from typing import Any
 
@@ -8,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from gcs.bench.lossy_link import LossyLink, seeded_fates
 from gcs.transfers.errors import TransferError
 from gcs.transfers.parameters import ParameterFetch, ParameterSet, ParameterValue
 from gcs.transfers.plan_clear import PlanClear
@@ -35,20 +35,6 @@ def plans(make_mission: Any, plan_type: PlanType) -> list[tuple[MissionItem, ...
     return FENCES if plan_type == PlanType.FENCE else RALLIES
 
 
-def bad_link(
-    lossy_link: Any, vehicle: Any, seed: int, loss: float, delay_s: float = 0.05, jitter_s: float = 0.0
-) -> Any:
-    """A link that loses a part of the messages each way, and with jitter repeats and reorders them as well."""
-    chance = random.Random(seed)
-    return lossy_link(
-        vehicle,
-        lambda: chance.random() < loss,
-        delay_s,
-        lambda: chance.random() * jitter_s,
-        lambda: 1 + (jitter_s > 0.0 and chance.random() < 0.1),
-    )
-
-
 def upload_and_read_back(link: Any, plan_type: PlanType, items: tuple[MissionItem, ...]) -> Any:
     """As the station does it; what is read back, or the error."""
     outcome = link.run(PlanUpload(plan_type, items, *link.link()), SLOWEST_S)
@@ -59,16 +45,16 @@ def upload_and_read_back(link: Any, plan_type: PlanType, items: tuple[MissionIte
 
 @pytest.mark.parametrize("seed", range(8))
 def test_a_hundred_items_get_through_a_link_that_loses_a_quarter_each_way(
-    lossy_link: Any, make_vehicle: Any, make_mission: Any, seed: int
+    make_vehicle: Any, make_mission: Any, seed: int
 ) -> None:
-    link = bad_link(lossy_link, make_vehicle(SYSID), seed, 0.25)
+    link = LossyLink(make_vehicle(SYSID), seeded_fates(seed, 0.25))
     mission = make_mission(100).items
     assert upload_and_read_back(link, PlanType.MISSION, mission) == mission
     assert {"MISSION_ITEM_INT", "MISSION_REQUEST_INT"} <= link.kinds_lost
 
 
 def test_an_endpoint_that_asks_in_strict_order_gets_all_as_well(
-    lossy_link: Any, make_vehicle: Any, make_mission: Any, monkeypatch: pytest.MonkeyPatch
+    make_vehicle: Any, make_mission: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begin = RequestWindow.__init__
 
@@ -76,7 +62,7 @@ def test_an_endpoint_that_asks_in_strict_order_gets_all_as_well(
         begin(window, first, last, now, strict=True)
 
     monkeypatch.setattr(RequestWindow, "__init__", begin_strictly)
-    link = bad_link(lossy_link, make_vehicle(SYSID), 1, 0.25)
+    link = LossyLink(make_vehicle(SYSID), seeded_fates(1, 0.25))
     mission = make_mission(60).items
     assert upload_and_read_back(link, PlanType.MISSION, mission) == mission
 
@@ -89,7 +75,6 @@ def test_an_endpoint_that_asks_in_strict_order_gets_all_as_well(
     st.sampled_from([0.0, 0.1, 0.4]),
 )
 def test_whatever_the_link_does_there_is_an_end_no_mixture_and_no_false_success(
-    lossy_link: Any,
     make_vehicle: Any,
     make_mission: Any,
     plan_type: PlanType,
@@ -100,7 +85,7 @@ def test_whatever_the_link_does_there_is_an_end_no_mixture_and_no_false_success(
     old, new = plans(make_mission, plan_type)
     vehicle = make_vehicle(SYSID)
     vehicle.load(plan_type, old)
-    link = bad_link(lossy_link, vehicle, seed, loss, jitter_s=jitter_s)
+    link = LossyLink(vehicle, seeded_fates(seed, loss, jitter_s=jitter_s))
     held = upload_and_read_back(link, plan_type, new)
     assert vehicle.items(plan_type) in (old, new)
     if not isinstance(held, TransferError):
@@ -137,9 +122,7 @@ def test_when_the_last_acks_are_lost_reading_back_tells(
     vehicle = make_vehicle(SYSID)
     link = lossy_link(vehicle)
     put = link._put
-    monkeypatch.setattr(
-        link, "_put", lambda way, message, codec: message.get_type() != "MISSION_ACK" and put(way, message, codec)
-    )
+    monkeypatch.setattr(link, "_put", lambda up, message: message.get_type() != "MISSION_ACK" and put(up, message))
     mission = make_mission(6).items
     assert link.run(PlanUpload(PlanType.MISSION, mission, *link.link())) == Uploaded(confirmed=False)
     assert link.run(PlanDownload(PlanType.MISSION, *link.link())) == mission
@@ -162,18 +145,18 @@ def test_a_refusal_names_item_and_code(lossy_link: Any, make_vehicle: Any, make_
     assert "MAV_MISSION_UNSUPPORTED" in str(error)
 
 
-def test_a_plan_is_cleared(lossy_link: Any, make_vehicle: Any) -> None:
+def test_a_plan_is_cleared(make_vehicle: Any) -> None:
     vehicle = make_vehicle(SYSID)
     vehicle.load(PlanType.FENCE, FENCES[0])
-    link = bad_link(lossy_link, vehicle, 4, 0.25)
+    link = LossyLink(vehicle, seeded_fates(4, 0.25))
     assert link.run(PlanClear(PlanType.FENCE, *link.link())) in (True, False)
     assert link.run(PlanDownload(PlanType.FENCE, *link.link())) == ()
 
 
 @pytest.mark.parametrize("loss", [0.0, 0.25])
-def test_parameters_are_fetched_and_set(lossy_link: Any, make_vehicle: Any, loss: float) -> None:
+def test_parameters_are_fetched_and_set(make_vehicle: Any, loss: float) -> None:
     vehicle = make_vehicle(SYSID)
-    link = bad_link(lossy_link, vehicle, 5, loss)
+    link = LossyLink(vehicle, seeded_fates(5, loss))
     fetched = link.run(ParameterFetch(*link.link()))
     assert {name: value.value for name, value in fetched.items()} == {
         name: vehicle.parameters[name] for name in vehicle.parameters.names
