@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Sequence
 
-from missions.commands import Command, Frame
 from missions.environment.terrain import ground_height_m
 from missions.errors import InputError
 from missions.mission import Mission, MissionItem
@@ -12,16 +11,16 @@ from sitl.circling import Circling
 from sitl.config import VehicleConfig
 from sitl.events import CRITICAL, INFO, NOTICE, WARNING, ItemReached, StatusText
 from sitl.flight import Vector
+from sitl.home import home_at
 from sitl.homing import refuge
 from sitl.itinerary import Flyer, Itinerary, Stage
 from sitl.modes import Mode
 from sitl.parameters import Parameters
 from sitl.pilot import Phase, Pilot
-from sitl.snapshot import LandedState
 from sitl.stages.circle import CircleStage
 from sitl.stages.mark import Mark
 from sitl.stages.path import PathStage
-from sitl.stages.straight import ClimbOutStage, GlideStage
+from sitl.stages.straight import GlideStage
 from sitl.take_off import climb_out
 
 DEFAULT_SPEED = -2.0
@@ -49,11 +48,9 @@ class Captain:
         self, config: VehicleConfig, parameters: Parameters, report: Callable[[ItemReached | StatusText], None]
     ) -> None:
         frame = config.frame
-        lat_e7, lon_e7 = frame.to_e7(config.home_m[0], config.home_m[1])
-        altitude_m = config.home_m[2] + frame.alt_m
         self.mode = Mode.MANUAL
         self.armed = False
-        self.home = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=lat_e7, lon_e7=lon_e7, alt_m=altitude_m)
+        self.home = home_at(config.home_m, frame)
         self.home_m = position_m(self.home, self.home, frame)
         self.rally: Sequence[MissionItem] = ()
         self._config = config
@@ -129,9 +126,7 @@ class Captain:
         """Change home; None for where it is now, in the air the ground below."""
         frame, (x, y, z) = self._config.frame, self.pilot.start.position_m
         if home is None:
-            lat_e7, lon_e7 = frame.to_e7(x, y)
-            z = ground_height_m(x, y, self._config.terrain) if self.pilot.airborne else z
-            home = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=lat_e7, lon_e7=lon_e7, alt_m=z + frame.alt_m)
+            home = home_at((x, y, ground_height_m(x, y, self._config.terrain) if self.pilot.airborne else z), frame)
         place = position_m(home, home, frame)
         if not (math.hypot(*place[:2]) < FARTHEST_M and abs(place[2]) < FARTHEST_M):
             return f"Home more than {FARTHEST_M / 1000:g} km away"
@@ -369,23 +364,6 @@ class Captain:
         self._mark, self.complete = itinerary.first(), False
         self._auto = None if self.pilot.airborne else itinerary.first_stage
         self._parameters.tell("MIS_TOTAL", len(itinerary.mission))
-
-    @property
-    def landing(self) -> bool:
-        """Whether it is coming down to the ground."""
-        stage = self.pilot.stage
-        return isinstance(stage, GlideStage) or (isinstance(stage, PathStage) and stage.on_final)
-
-    @property
-    def landed(self) -> LandedState:
-        """On the ground, in the air, or on the way from one to the other."""
-        stage = self.pilot.stage
-        if not self.pilot.airborne:
-            return LandedState.ON_GROUND
-        if self.landing:
-            return LandedState.LANDING
-        taking_off = isinstance(stage, ClimbOutStage) or (isinstance(stage, PathStage) and stage.taking_off)
-        return LandedState.TAKING_OFF if taking_off else LandedState.IN_AIR
 
     @property
     def current_seq(self) -> int:

@@ -5,6 +5,7 @@ from sitl.config import VehicleConfig
 from sitl.events import CRITICAL, NOTICE
 from sitl.fence_action import FenceAction, fence_return
 from sitl.fence_watch import FenceWatch
+from sitl.landed_state import is_landing
 from sitl.modes import Mode
 from sitl.parameters import Parameters
 from sitl.station_watch import StationAction, StationWatch
@@ -49,7 +50,7 @@ class Failsafes:
         self.active = True
         action = StationAction(int(settings["FS_LONG_ACTN"]))
         captain.say(CRITICAL, f"Station lost for {settings['FS_LONG_TIMEOUT']:g} s: {action.words}")
-        if action == StationAction.RTL and not captain.landing:
+        if action == StationAction.RTL and not is_landing(captain.pilot.stage):
             captain.say_refusal(captain.set_mode(Mode.RTL))
         elif action == StationAction.AUTO:
             captain.say_refusal(captain.set_mode(Mode.AUTO))
@@ -62,7 +63,7 @@ class Failsafes:
                 self._end_breach()
             return
         here = captain.pilot.start.position_m
-        news = fence.look(here, captain.home_m, captain.pilot.tick * TICK_S, landing=captain.landing)
+        news = fence.look(here, captain.home_m, captain.pilot.tick * TICK_S, landing=is_landing(captain.pilot.stage))
         if news is None:
             return
         if isinstance(news, bool):

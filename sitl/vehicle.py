@@ -17,6 +17,7 @@ from sitl.fence_watch import FenceAreas
 from sitl.flight import ground_velocity
 from sitl.formation.correction import Correction
 from sitl.homing import check_rally
+from sitl.landed_state import landed_state
 from sitl.modes import Mode
 from sitl.parameters import Parameters, arduplane_parameters
 from sitl.pilot import Phase
@@ -235,7 +236,7 @@ class Vehicle:
             altitude_error_m=errors.above if errors else 0.0,
             along_track_m=errors.along if errors else 0.0,
             distance_to_waypoint_m=distance_m,
-            landed=captain.landed,
+            landed=landed_state(captain.pilot),
             home_m=captain.home_m,
             ready=captain.armed or flying or self.prearm() is None,
             failsafe=self._failsafes.active,

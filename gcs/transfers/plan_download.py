@@ -2,13 +2,13 @@
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.transfers.acquaintance import Acquaintance
 from gcs.transfers.errors import TransferError
-from gcs.transfers.plan_transfer import PlanTransfer
+from gcs.transfers.plan_transfer import STARTS, PlanTransfer
 from missions.mission import MissionItem
 from missions.plan_type import PlanType
 from sitl.services.mission_items import decode_item
@@ -34,6 +34,13 @@ _LATER_ANSWERS = 3
 _UNANSWERED_TRIES = 7
 """A peer that leaves the lowest request unanswered so often, and all others meanwhile, may want strict order."""
 
+_FORGOTTEN_TRIES = 10
+_FORGOTTEN_S = 10.0
+"""A peer asked for one item alone that leaves it unanswered so often, and sends no other for so long, has ended the
+download: PX4 does at a request out of turn, says so once, which may be lost, and is silent from then on."""
+_THERE_S = 5.0
+"""It is there all the same, if something has been heard of it for so long: a heartbeat, for the most part."""
+
 
 @dataclass
 class _Request:
@@ -48,7 +55,8 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
     """Pulls one plan that a vehicle holds, with a window of requests; items may come in any order.
 
     Each request is repeated by itself. A vehicle that wants them in strict order is asked for one at a time: from the
-    start when it says so, with INVALID_SEQUENCE or an error, and from where it is when it shows it by silence.
+    start when it says so, with INVALID_SEQUENCE or an error, and from where it is when it shows it by silence. When
+    the silence goes on, it is asked from the start.
 
     Args:
         plan_type, sysid, compid, send, now, known: as of PlanTransfer.
@@ -148,15 +156,19 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
 
     def _repeat(self) -> None:
         if self._plan is None:
-            self._send(self._waiting)
+            self._send(self._waiting)  # twice: to ask once more costs less than to wait once more
             super()._repeat()
             return
         now_s = self._now()
         lowest = min(self._requests)
-        if not self._strict and self._requests[lowest].tries >= _UNANSWERED_TRIES:
-            quiet_s = now_s - self._progress_at_s
-            if quiet_s >= _UNANSWERED_TRIES * self._timeout_s(0):
-                self._narrow(lowest)
+        tries, quiet_s = self._requests[lowest].tries, now_s - self._progress_at_s
+        if self._strict:
+            there = now_s - self._heard_at_s < _THERE_S
+            if there and tries >= _FORGOTTEN_TRIES and quiet_s >= _FORGOTTEN_S and self._starts < STARTS:
+                self.start()
+                return
+        elif tries >= _UNANSWERED_TRIES and quiet_s >= _UNANSWERED_TRIES * self._timeout_s(0):
+            self._narrow(lowest)
         for seq in [seq for seq, request in self._requests.items() if self._due_at_s(request) <= now_s]:
             self._request_again(seq)
         self.deadline_s = min(map(self._due_at_s, self._requests.values()))
@@ -171,7 +183,7 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         self._window = 1
         later = sorted(seq for seq in self._requests if seq != lowest)
         self._pending.extendleft(reversed(later))
-        self._requests = {lowest: self._requests[lowest]}
+        self._requests = {lowest: replace(self._requests[lowest], tries=0)}
 
     def _request(self, seq: int, tries: int = 0) -> None:
         self._serial += 1

@@ -97,7 +97,9 @@ class PlanTransfer(Transfer[Result]):
             self._take_plan_message(kind, message)
 
     def _progress(self) -> None:
-        self._taken_up = True
+        # What comes sooner after a start than any answer could still belongs to the start before.
+        soonest_s = (self._known.round_trip.smoothed_s or 0.0) / 2
+        self._taken_up = self._taken_up or self._now() >= self._began_at_s + soonest_s
         super()._progress()
 
     def _begin_again(self, result: int) -> None:

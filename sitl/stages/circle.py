@@ -13,6 +13,8 @@ from sitl.ticks import TICK_S
 ON_CIRCLE = 0.3
 """It has arrived within this share of the radius."""
 AT_ALTITUDE_M = 5.0
+LEAST_STAY_S = 1.0
+"""A circle is flown for so long at least: a mission that jumps back to one that asks for no time is no haste."""
 
 
 @dataclass(frozen=True)
@@ -96,9 +98,9 @@ class CircleStage:
         elif abs(self.distance_m(flight) - self.loiter.radius_m) <= ON_CIRCLE * self.loiter.radius_m:
             self.arrived = True
         self._bearing = bearing
-        until = self._until
-        self.done = self.arrived and (
-            self._ticks * TICK_S >= until.time_s
+        until, on_circle_s = self._until, self._ticks * TICK_S
+        self.done = on_circle_s >= LEAST_STAY_S and (
+            on_circle_s >= until.time_s
             or self._turned >= 2.0 * math.pi * until.turns
             or (until.altitude and abs(flight.air.h - self.loiter.z_m) <= AT_ALTITUDE_M)
         )

@@ -114,7 +114,7 @@ asked = st.one_of(
 )
 
 
-@settings(derandomize=True, max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(
     st.sampled_from(CONFIGS), st.lists(st.tuples(asked, st.sampled_from([1, 50, 400, 1200])), min_size=2, max_size=12)
 )

@@ -46,6 +46,14 @@ def test_a_jump_for_ever_is_flown_for_ever(make_flown: Any, place: Place) -> Non
     assert not flown.vehicle.snapshot().mission_complete
 
 
+def test_a_jump_back_to_a_loiter_of_no_time_reaches_it_once_a_second(make_flown: Any, place: Place) -> None:
+    loiter = place(Command.NAV_LOITER_TIME, 900, 0, 100)
+    flown = make_flown().in_auto(loiter, place(Command.DO_JUMP, param1=1, param2=-1))
+    flown.fly_s(100)
+    assert 30 < len(flown.reached) <= 100
+    assert set(flown.reached) == {1}
+
+
 @pytest.mark.parametrize(
     ("command", "params", "seconds"),
     [

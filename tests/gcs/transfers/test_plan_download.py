@@ -21,21 +21,31 @@ class Vehicle:
     Args:
         strict: whether it serves nothing but the item after the one before, or that once more.
         error: its MISSION_ACK for anything else; None for silence.
+        forgets: whether it then serves nothing any more, until it is asked for the list again.
     """
 
-    def __init__(self, scripted: Any, items: tuple[MissionItem, ...], strict: bool, error: int | None = None) -> None:
+    def __init__(
+        self,
+        scripted: Any,
+        items: tuple[MissionItem, ...],
+        strict: bool,
+        error: int | None = None,
+        forgets: bool = False,
+    ) -> None:
         self.served: list[int] = []
         self._scripted = scripted
         self._items = items
         self._strict = strict
         self._error = error
+        self._forgets = forgets
+        self._over = False
 
     def answer(self, lost: tuple[int, ...] = ()) -> None:
         """Answer all that has been sent so far, but for the first request for each item that is lost."""
         asked, self._scripted.sent = self._scripted.sent, []
         for kind, seq in asked:
             if kind == LIST:
-                self.served = []
+                self.served, self._over = [], False
                 self._scripted.say(mavlink.MAVLink_mission_count_message(255, 190, len(self._items), 0))
             elif kind == REQUEST and seq not in lost:
                 self._serve(seq)
@@ -43,11 +53,15 @@ class Vehicle:
                 lost = tuple(one for one in lost if one != seq)
 
     def _serve(self, seq: int) -> None:
+        if self._over:
+            return
         last = self.served[-1] if self.served else -1
         if not self._strict or seq in (last, last + 1):
             self.served.append(seq)
             self._scripted.say(item_message(self._items[seq], seq, 255, 190))
-        elif self._error is not None:
+            return
+        self._over = self._forgets
+        if self._error is not None:
             self._scripted.say(mavlink.MAVLink_mission_ack_message(255, 190, self._error, 0))
 
 
@@ -113,6 +127,19 @@ def test_who_insists_on_strict_order_without_a_word_is_found_out(
     vehicle.answer(lost=(3, 7))
     for _ in range(400):
         scripted.wait(0.1)
+        vehicle.answer()
+    assert download.outcome == make_mission(40).items
+
+
+def test_who_ends_a_download_at_a_request_out_of_turn_without_a_word_is_asked_from_the_start(
+    scripted: Any, download: PlanDownload, make_mission: Any
+) -> None:
+    vehicle = Vehicle(scripted, make_mission(40).items, strict=True, forgets=True)
+    vehicle.answer()
+    vehicle.answer(lost=(3, 7))
+    for _ in range(1000):
+        scripted.wait(0.1)
+        scripted.say(mavlink.MAVLink_heartbeat_message(1, 12, 0, 0, 0, 3))
         vehicle.answer()
     assert download.outcome == make_mission(40).items
 

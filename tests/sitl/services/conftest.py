@@ -6,10 +6,16 @@ from typing import Any
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from missions.mission import MissionItem
+from missions.plan_type import PlanType
+from sitl.events import StatusText
 from sitl.services.codec import Codec
 from sitl.services.face import MavlinkFace
+from sitl.services.mission_items import item_message
+from sitl.services.mission_server import MissionServer
 from sitl.services.peer import Peer
 
+PLAN_PEER, PLAN_SYSID = Peer("udp", "127.0.0.1", 14550), 3
 PEER, OTHER = Peer("tcp", "127.0.0.1", 1000), Peer("udp", "127.0.0.1", 1001)
 
 
@@ -73,3 +79,92 @@ def bench(make_vehicle: Any, make_mission: Callable[[int], Any], frame: Any) -> 
     vehicle = make_vehicle(3)
     vehicle.mission = make_mission(5)
     return Bench(vehicle, frame)
+
+
+class PlanBench:
+    """A mission server, its vehicle, a clock, and all it says."""
+
+    def __init__(self, vehicle: Any) -> None:
+        self.vehicle = vehicle
+        self.time_s = 0.0
+        self.sent: list[tuple[Any, Peer]] = []
+        self.texts: list[StatusText] = []
+        self.server = MissionServer(
+            vehicle, lambda message, peer: self.sent.append((message, peer)), self.texts.append, lambda: self.time_s
+        )
+
+    def tell(self, message: Any, peer: Peer = PLAN_PEER, sysid: int = 255) -> list[Any]:
+        """Feed one message over the wire; what the server says to that peer at once."""
+        before = len(self.sent)
+        for received in Codec(1, 1).feed(Codec(sysid, 190).pack(message)):
+            self.server.on_message(received, peer)
+        assert all(to == peer for _, to in self.sent[before:])
+        return [answer for answer, _ in self.sent[before:]]
+
+    def count(self, count: int, plan: int = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        return self.tell(mavlink.MAVLink_mission_count_message(PLAN_SYSID, 1, count, plan), **kwargs)
+
+    def item(self, items: Any, seq: int, plan: PlanType = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        return self.tell(item_message(items[seq], seq, PLAN_SYSID, 1, plan), **kwargs)
+
+    def raw_item(self, seq: int, item: MissionItem, plan: int = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        fields = (
+            PLAN_SYSID,
+            1,
+            seq,
+            item.frame,
+            item.command,
+            0,
+            1,
+            *item.params,
+            item.lat_e7,
+            item.lon_e7,
+            item.alt_m,
+        )
+        return self.tell(mavlink.MAVLink_mission_item_int_message(*fields, plan), **kwargs)
+
+    def ack(self, result: int, plan: int = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        return self.tell(mavlink.MAVLink_mission_ack_message(PLAN_SYSID, 1, result, plan), **kwargs)
+
+    def write_partial(self, first: int, last: int, plan: int = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        message = mavlink.MAVLink_mission_write_partial_list_message(PLAN_SYSID, 1, first, last, plan)
+        return self.tell(message, **kwargs)
+
+    def list_plan(self, plan: int = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        return self.tell(mavlink.MAVLink_mission_request_list_message(PLAN_SYSID, 1, plan), **kwargs)
+
+    def clear(self, plan: int = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        return self.tell(mavlink.MAVLink_mission_clear_all_message(PLAN_SYSID, 1, plan), **kwargs)
+
+    def upload(self, items: Any, plan: PlanType = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        """Answer every request in turn; what the server says in the end."""
+        return self.answer(items, self.count(len(items), plan, **kwargs), plan, **kwargs)
+
+    def answer(self, items: Any, asked: list[Any], plan: PlanType = PlanType.MISSION, **kwargs: Any) -> list[Any]:
+        while asked and all(message.get_type() == "MISSION_REQUEST_INT" for message in asked):
+            asked = asked[1:] + self.item(items, asked[0].seq, plan, **kwargs)
+        return asked
+
+    def wait(self, seconds: float) -> list[Any]:
+        """What the server says when so much time has passed at once."""
+        self.time_s += seconds
+        before = len(self.sent)
+        self.server.on_tick()
+        return [answer for answer, _ in self.sent[before:]]
+
+    @staticmethod
+    def results(answers: list[Any]) -> list[int]:
+        """The MAV_MISSION_RESULTs of answers that are acknowledgements, all of them."""
+        assert all(answer.get_type() == "MISSION_ACK" for answer in answers)
+        return [answer.type for answer in answers]
+
+    @staticmethod
+    def requested(answers: list[Any]) -> list[int]:
+        """The items asked for by answers that are requests, all of them."""
+        assert all(answer.get_type() in ("MISSION_REQUEST_INT", "MISSION_REQUEST") for answer in answers)
+        return [answer.seq for answer in answers]
+
+
+@pytest.fixture
+def plan_bench(make_vehicle: Any) -> PlanBench:
+    return PlanBench(make_vehicle(PLAN_SYSID))
