@@ -57,7 +57,7 @@ async def download_plan(vehicle: VehicleLink) -> Plan:
 
 def is_armed(vehicle: VehicleLink) -> bool:
     """Whether its last HEARTBEAT said that it is armed."""
-    return bool(vehicle.latest["HEARTBEAT"].base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
+    return _armed(vehicle.latest["HEARTBEAT"])
 
 
 def is_flying(vehicle: VehicleLink) -> bool:

@@ -10,7 +10,8 @@ from sitl.crew import Crew
 from sitl.endpoint import Endpoint
 
 TURN_S = 0.05
-"""At least so often each face is told that time has passed."""
+"""At least so often each face is told that time has passed; sooner when an upload has something overdue."""
+SHORTEST_TURN_S = 0.001
 
 
 @contextlib.contextmanager
@@ -40,12 +41,13 @@ def _serve(crew: Crew, everyone: list[Endpoint], stopped: threading.Event) -> No
             selector.register(endpoint.links, selectors.EVENT_READ, endpoint)
         turn_at_s = time.monotonic()
         while not stopped.is_set():
-            for key, _ in selector.select(max(0.0, turn_at_s - time.monotonic())):
-                _take_turn(crew, key.data)
-            if time.monotonic() >= turn_at_s:
-                turn_at_s = time.monotonic() + TURN_S
-                for endpoint in crew.flying.values():
-                    _take_turn(crew, endpoint)
+            turned = [key.data for key, _ in selector.select(max(0.0, turn_at_s - time.monotonic()))]
+            if (now_s := time.monotonic()) >= turn_at_s:
+                turned = list(crew.flying.values())
+                turn_at_s = now_s + TURN_S
+            for endpoint in turned:
+                _take_turn(crew, endpoint)
+                turn_at_s = max(now_s + SHORTEST_TURN_S, min(turn_at_s, endpoint.face.deadline_s))
             for sysid in served.keys() - crew.flying.keys():
                 selector.unregister(served[sysid].links)
                 served.pop(sysid).links.close()

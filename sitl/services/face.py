@@ -131,6 +131,11 @@ class MavlinkFace:
                     self._broadcast(message)
             self._flush()
 
+    @property
+    def deadline_s(self) -> float:
+        """When `on_tick` has something overdue to ask for again; infinite when it has not."""
+        return self._missions.deadline_s
+
     def wants(self, time_s: float) -> bool:
         """Whether `on_simulated_tick` has a stream to send at this simulated time; cheap."""
         return self._telemetry.is_due(time_s)

@@ -1,5 +1,6 @@
 """What a station sees of a vehicle: the whole face, without a socket."""
 
+import math
 from typing import Any
 
 import pytest
@@ -137,3 +138,12 @@ def test_a_station_that_says_hello_is_shown_everything_though_no_time_passes(ben
     assert not shown & {"GPS_GLOBAL_ORIGIN", "FENCE_STATUS", "NAMED_VALUE_FLOAT"}
     bench.heard(bench.other)
     assert bench.tell(gcs_heartbeat()) == bench.heard(bench.other) == []
+
+
+def test_it_says_when_an_upload_has_something_overdue(bench: Any) -> None:
+    assert bench.face.deadline_s == math.inf
+    bench.tell(mavlink.MAVLink_mission_count_message(3, 1, 4, 0))
+    assert bench.time_s < bench.face.deadline_s < bench.time_s + 2.0
+    bench.time_s = bench.face.deadline_s
+    assert any(message.get_type().startswith("MISSION_REQUEST") for message in bench.tick(0.0))
+    assert bench.face.deadline_s > bench.time_s
