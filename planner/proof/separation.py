@@ -1,6 +1,6 @@
 """How near UAVs come to each other at any instant, neighbours found by a tree: not all pairs are looked at."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 
 import numpy as np
@@ -36,6 +36,7 @@ def separations(tracks: Tracks, wanted_m: float) -> Separations:
     """Bracket the distances of all pairs that come nearer than `wanted_m` or than anyone else to one of the two."""
     pairs, enough, windows = _candidates(tracks, wanted_m)
     found = least(len(pairs), windows, lambda row, a, b: _apart(tracks, pairs[row], a, b), enough)
+    found = replace(found, low=np.minimum(found.low, enough))  # in the windows left out it may be so near
     nearest = np.full(len(tracks), np.inf)
     for side in (0, 1):
         np.minimum.at(nearest, pairs[:, side], found.low)
