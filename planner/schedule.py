@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from missions.compiled import compile_shared, jit
 from missions.errors import InputError
 from missions.reference import airspeed_on_track, fillet
 from missions.reference.reference import fillet_radius_m
 from missions.scenario import Scenario
-from planner.compiled import compile_shared, jit
 from planner.limits import POWER_SHARE, airspeed_range_m_s, flyable, power_share
 
 FloatArray = npt.NDArray[np.float64]

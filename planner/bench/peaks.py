@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from planner.compiled import jit
+from missions.compiled import jit
 
 VALUES, ROUNDS, REPEATS = 1024, 400, 7
 """1024 numbers stay in the first cache."""

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planner.compiled import jit
+from missions.compiled import jit
 from planner.cost.problem import PathProblem
 
 FloatArray = npt.NDArray[np.float64]

@@ -6,8 +6,8 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from missions.compiled import jit, parallel_jit, prange
 from missions.environment import Terrain
-from planner.compiled import jit, parallel_jit, prange
 from planner.cost.constraints import broken_limits
 from planner.cost.leg_box import apart, leg_box
 from planner.cost.obstacles import least_wall_distance_m

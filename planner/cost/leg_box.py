@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from planner.compiled import jit
+from missions.compiled import jit
 
 
 @jit

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from planner.compiled import jit
+from missions.compiled import jit
 
 GOLDEN = 0.6180339887498949
 STEPS = 40

@@ -3,8 +3,8 @@
 import math
 from typing import Any
 
+from missions.compiled import jit
 from missions.environment.radars import CORE
-from planner.compiled import jit
 
 LEAST_PASS = 3e-4
 """Legs that pass the centre closer than this many radii count as passing at it: an error of 1e-5 at most, where the

@@ -8,8 +8,8 @@ over.
 import math
 from typing import Any
 
+from missions.compiled import jit
 from missions.environment.raster import BLOCK_CELLS
-from planner.compiled import jit
 
 
 @jit

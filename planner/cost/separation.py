@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from planner.compiled import jit
+from missions.compiled import jit
 
 
 @jit

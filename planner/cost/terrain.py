@@ -7,8 +7,8 @@ Exactly, above a raster; above peaks and waves by samples so close that no dip b
 import math
 from typing import Any
 
+from missions.compiled import compile_shared, jit
 from missions.environment.terrain import analytic_height_m
-from planner.compiled import compile_shared, jit
 from planner.cost.raster import least_height_above_raster_m
 
 DIP_M = 5.0

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from planner.compiled import jit
+from missions.compiled import jit
 from planner.search.objective import FloatArray, Objective
 from planner.search.rates import rates
 

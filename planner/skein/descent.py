@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from planner.compiled import jit
+from missions.compiled import jit
 from planner.cost.kernel import path_cost
 from planner.skein.merit import KM, merit
 

@@ -7,7 +7,7 @@ the distance at a fixed t (Danskin): (1 - t) n for p and t n for q, n being the 
 import math
 from typing import Any
 
-from planner.compiled import jit
+from missions.compiled import jit
 from planner.cost.obstacles import wall_distance_and_place
 
 TOUCHING_M = 1e-9

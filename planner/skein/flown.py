@@ -4,7 +4,7 @@ these change as corners move."""
 import math
 from typing import Any
 
-from planner.compiled import jit
+from missions.compiled import jit
 
 SHORT_M = 1e-3
 """Stands for the length of a leg without any."""

@@ -2,8 +2,8 @@
 
 from typing import Any
 
+from missions.compiled import compile_shared, jit
 from missions.environment.terrain import ground_height_and_slope
-from planner.compiled import compile_shared, jit
 
 ground = compile_shared(ground_height_and_slope)
 

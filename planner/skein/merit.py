@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from planner.compiled import jit
+from missions.compiled import jit
 from planner.cost.leg_box import apart, leg_box
 from planner.cost.radar import radar_integral_m
 from planner.cost.separation import least_separation_m

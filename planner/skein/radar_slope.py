@@ -3,8 +3,8 @@
 import math
 from typing import Any
 
+from missions.compiled import jit
 from missions.environment.radars import CORE
-from planner.compiled import jit
 
 GRAZING = 1e-2
 """Half of a leg's part within the radius counts as so many radii at least: the slope is infinite where a leg touches

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planner.compiled import jit
+from missions.compiled import jit
 from planner.cost.problem import PathProblem
 from planner.skein.routes import RouteGrid
 from planner.skein.starts import path_along, spacing

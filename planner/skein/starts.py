@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from missions.compiled import compile_shared, jit
 from missions.environment import ground_height_m
-from planner.compiled import compile_shared, jit
 from planner.cost.problem import PathProblem
 from planner.skein.routes import RouteGrid
 

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from missions.compiled import compile_shared
 from missions.environment import Terrain, ground_height_and_slope, ground_height_m, ground_heights_m, slope_bound
 from missions.environment.raster import BLOCK_CELLS, block_tops
 from missions.environment.terrain import NO_WAVE
-from planner.compiled import compile_shared
 
 
 def rough(seed: int, ny: int = 7, nx: int = 9) -> Terrain:

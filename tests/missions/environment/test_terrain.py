@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from missions.compiled import compile_shared
 from missions.environment import Terrain, ground_height_and_slope, ground_height_m, ground_heights_m, slope_bound
 from missions.environment.terrain import NO_WAVE
 from missions.scenario import load_scenario
-from planner.compiled import compile_shared
 
 MOUNTAINS = load_scenario("mountains").environment.terrain
 WAVY = MOUNTAINS._replace(wave=(300.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7))

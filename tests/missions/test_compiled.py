@@ -7,8 +7,8 @@ import numba
 import numpy as np
 import pytest
 
+from missions.compiled import KEPT_CACHES, cache_folder, compile_shared, sources_hash
 from missions.environment import Terrain, ground_height_m
-from planner.compiled import KEPT_CACHES, cache_folder, compile_shared, sources_hash
 
 
 def test_a_change_of_any_source_changes_the_name(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""numba for the planner: a cache that notices every change of the sources, and shared plain functions compiled.
+"""numba for planner and rehearsal: a cache that notices every change of the sources, and plain functions compiled.
 
 Import this file before numba: it says where numba keeps compiled code.
 """
