@@ -16,7 +16,14 @@ from sitl.aircraft.gusts import GustFilter, GustState, Normals, gust_filter, sta
 from sitl.aircraft.linearisation import controls_for
 from sitl.aircraft.point_mass import AirState, Controls, air_velocity, rk4_step, with_air_velocity
 from sitl.guidance.path_errors import START, PathErrors, PathPoint
-from sitl.guidance.path_law import Accelerations, across_acceleration, limited, up_acceleration
+from sitl.guidance.path_law import (
+    PLANNED_ROOM_M_S,
+    Accelerations,
+    across_acceleration,
+    limited,
+    speed_before_height,
+    up_acceleration,
+)
 from sitl.ticks import TICK_S
 
 Vector = tuple[float, float, float]
@@ -111,14 +118,15 @@ def at_point(flight: Flight, point: PathPoint) -> Flight:
     return Flight(flight.air, flight.controls, flight.gusts, flight.wind, point)
 
 
-def path_accelerations(errors: PathErrors, ahead: float) -> Accelerations:
-    """Keep to the path with a given acceleration along it."""
-    return Accelerations(
+def path_accelerations(errors: PathErrors, ahead: float, airspeed: float, airframe: Airframe) -> Accelerations:
+    """Keep to the path of a mission with a given acceleration along it."""
+    wanted = Accelerations(
         ahead,
         across_acceleration(errors),
         up_acceleration(errors.above, errors.v_z, errors.v_t * errors.slope),
         errors.heading,
     )
+    return speed_before_height(wanted, airspeed, PLANNED_ROOM_M_S, airframe)
 
 
 def airspeed_at(s_m: float, airspeeds: list[tuple[float, float]]) -> float:

@@ -15,9 +15,14 @@ class Stream(IntEnum):
     GUSTS = 1
 
 
+def generator(seed: int, sysid: int, stream: Stream) -> np.random.Generator:
+    """numpy's Philox keyed by all three."""
+    return np.random.Generator(np.random.Philox(key=[seed, (sysid << 32) | stream]))
+
+
 def normals(seed: int, sysid: int, stream: Stream, per_tick: int) -> Iterator[tuple[float, ...]]:
-    """An endless stream of `per_tick` standard normal draws a tick, from numpy's Philox keyed by all three."""
-    generator = np.random.Generator(np.random.Philox(key=[seed, (sysid << 32) | stream]))
+    """An endless stream of `per_tick` standard normal draws a tick, of a generator keyed by the rest."""
+    draws = generator(seed, sysid, stream)
     while True:
-        for row in generator.standard_normal((BLOCK, per_tick)).tolist():
+        for row in draws.standard_normal((BLOCK, per_tick)).tolist():
             yield tuple(row)

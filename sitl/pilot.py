@@ -180,8 +180,8 @@ class Pilot:
         stage, errors, aircraft = self.stage, self.errors, self._aircraft
         if isinstance(stage, PathStage):
             assert errors is not None
-            wanted = path_accelerations(errors, self._ahead(errors, heard))
-            wanted = speed_before_height(wanted, self.flight.air.V, PLANNED_ROOM_M_S, aircraft.airframe)
+            ahead = self._ahead(errors, heard)
+            wanted = path_accelerations(errors, ahead, self.flight.air.V, aircraft.airframe)
             if stage.on_final:
                 aircraft = self._flapped
                 wanted = flared(wanted, self.flight, self._ground_m(), aircraft.airframe)

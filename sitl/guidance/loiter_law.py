@@ -21,6 +21,34 @@ class Loiter(NamedTuple):
     turn: float
 
 
+class Approach(NamedTuple):
+    """Where the way to a circle began: altitude, and distance from the circle's rim, metres."""
+
+    z_m: float
+    to_go_m: float
+
+
+def from_centre_m(x_m: float, y_m: float, loiter: Loiter) -> float:
+    """Distance from the centre."""
+    dx = x_m - loiter.x_m
+    dy = y_m - loiter.y_m
+    return math.sqrt(dx * dx + dy * dy)
+
+
+def to_go_m(x_m: float, y_m: float, loiter: Loiter) -> float:
+    """Distance from the rim; 0 inside."""
+    return max(from_centre_m(x_m, y_m, loiter) - loiter.radius_m, 0.0)
+
+
+def on_approach(x_m: float, y_m: float, loiter: Loiter, approach: Approach) -> Loiter:
+    """The circle at the altitude to hold now: it climbs at once, and glides down on the way there."""
+    if approach.z_m <= loiter.z_m or approach.to_go_m <= 0.0:
+        return loiter
+    share = min(to_go_m(x_m, y_m, loiter) / approach.to_go_m, 1.0)
+    z_m = loiter.z_m + share * (approach.z_m - loiter.z_m)
+    return Loiter(loiter.x_m, loiter.y_m, z_m, loiter.radius_m, loiter.turn)
+
+
 def loiter_accelerations(
     position: tuple[float, float, float],
     ground_velocity: tuple[float, float, float],

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from sitl.flight import Flight, ground_velocity
-from sitl.guidance.loiter_law import Loiter, loiter_accelerations
+from sitl.guidance.loiter_law import Approach, Loiter, from_centre_m, loiter_accelerations, on_approach, to_go_m
 from sitl.guidance.path_law import Accelerations
 from sitl.stages.mark import Mark
 from sitl.terrain_guard import TerrainGuard
@@ -61,7 +61,7 @@ class CircleStage:
         self._until = until or Until()
         self._mark = mark
         self._after = after
-        self._start: tuple[float, float] | None = None
+        self._approach: Approach | None = None
         self._ticks = 0
         self._turned = 0.0
         self._bearing = 0.0
@@ -73,18 +73,14 @@ class CircleStage:
 
     def distance_m(self, flight: Flight) -> float:
         """To the centre."""
-        return math.hypot(flight.air.x - self.loiter.x_m, flight.air.y - self.loiter.y_m)
+        return from_centre_m(flight.air.x, flight.air.y, self.loiter)
 
     def accelerations(self, flight: Flight, airspeed_wanted_m_s: float, tick: int) -> Accelerations:
         """What it wants at this tick."""
-        air, loiter, velocity = flight.air, self.loiter, ground_velocity(flight)
-        to_go_m = max(self.distance_m(flight) - loiter.radius_m, 0.0)
-        if self._start is None:
-            self._start = (air.h, to_go_m)
-        from_z_m, from_m = self._start
-        if from_z_m > loiter.z_m and from_m > 0.0:
-            share = min(to_go_m / from_m, 1.0)
-            loiter = loiter._replace(z_m=loiter.z_m + share * (from_z_m - loiter.z_m))
+        air, velocity = flight.air, ground_velocity(flight)
+        if self._approach is None:
+            self._approach = Approach(air.h, to_go_m(air.x, air.y, self.loiter))
+        loiter = on_approach(air.x, air.y, self.loiter, self._approach)
         if self.guard is not None:
             loiter = self.guard.above_ground(loiter, flight, velocity, tick)
         return loiter_accelerations((air.x, air.y, air.h), velocity, air.V, airspeed_wanted_m_s, loiter)

@@ -16,9 +16,12 @@ from pymavlink import mavutil
 
 from gcs.flight_record import FlightRecord, Timing
 from gcs.metrics import measure
+from gcs.metrics.arrival import arrival
 from gcs.run_folder import RunFolder
-from gcs.truth import read_truths
+from gcs.truth import read_truths, trajectory_sha256
 from sitl.formation.graph import edges
+from sitl.rehearsal import rehearse
+from sitl.swarm import SwarmOptions, vehicle_configs
 
 SKEIN = (sys.executable, "-m", "gcs.main")
 VEHICLE_KEYS = {
@@ -159,6 +162,18 @@ def test_the_same_again_and_with_another_seed_or_delay(flown: Flown, short_scena
         hashes[name] = json.loads(result.stdout)["trajectory_sha256"]
     assert hashes["same"] == first["trajectory_sha256"]
     assert len({first["trajectory_sha256"], hashes["seed"], hashes["delay"]}) == 3
+    for name, flown_sha256 in hashes.items():
+        assert rehearsed_sha256(tmp_path / name) == flown_sha256, "the rehearsal flies the same, bit for bit"
+
+
+def rehearsed_sha256(run: Path) -> str:
+    """Of the rehearsal of a run that was flown."""
+    scenario, plan = RunFolder(run).read()
+    metrics = json.loads((run / "metrics.json").read_text())
+    options = SwarmOptions(seed=plan.seed, delay_s=metrics["delay_s"], arm=metrics["arm"])
+    flown = rehearse(vehicle_configs(scenario, options), {uav.sysid: uav.mission for uav in plan.uavs})
+    ends = [arrival(flown.truth[i], reference).tick for i, reference in plan.references(scenario).items()]
+    return trajectory_sha256(flown.truth, max(tick for tick in ends if tick is not None))
 
 
 def test_a_planned_run_is_flown_and_its_missions_exported(short_scenario: Path, tmp_path: Path) -> None:

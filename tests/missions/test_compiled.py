@@ -9,6 +9,7 @@ import pytest
 
 from missions.compiled import KEPT_CACHES, cache_folder, compile_shared, sources_hash
 from missions.environment import Terrain, ground_height_m
+from missions.environment.terrain import NO_WAVE
 
 
 def test_a_change_of_any_source_changes_the_name(tmp_path: Path) -> None:
@@ -41,6 +42,7 @@ def test_a_cache_that_cannot_be_written_falls_back_to_a_temporary_folder(tmp_pat
 
 
 def test_numba_keeps_its_cache_there() -> None:
+    compile_shared(ground_height_m)(0.0, 0.0, Terrain(5.0, NO_WAVE, []).as_array())
     assert os.environ["NUMBA_CACHE_DIR"] == numba.config.CACHE_DIR
     assert any(Path(numba.config.CACHE_DIR).rglob("*.nbi"))
 

@@ -47,7 +47,7 @@ SHARED: dict[ModuleType, tuple[str, ...]] = {
         "moved",
     ),
     sitl.formation.law: ("correction", "formation_acceleration"),
-    sitl.guidance.loiter_law: ("loiter_accelerations",),
+    sitl.guidance.loiter_law: ("from_centre_m", "to_go_m", "on_approach", "loiter_accelerations"),
     sitl.guidance.path_errors: ("path_errors",),
     sitl.guidance.path_law: (
         "clamp",

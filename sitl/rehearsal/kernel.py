@@ -1,0 +1,244 @@
+"""The swarm's flight, tick by tick: what endpoints do in a held flight, in the same order, for all of them at once.
+
+Written for the compiler, in the dialect that plain Python computes bit for bit alike.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from missions.reference.reference import ReferenceTables
+from sitl.aircraft.gusts import GustState
+from sitl.aircraft.point_mass import AirState, Controls
+from sitl.flight import (
+    Aircraft,
+    Flight,
+    airspeed_at,
+    at_point,
+    ground_velocity,
+    in_next_wind,
+    launched,
+    moved,
+    path_accelerations,
+)
+from sitl.formation.law import Gains, correction, formation_acceleration
+from sitl.guidance.loiter_law import Approach, Loiter, loiter_accelerations, on_approach, to_go_m
+from sitl.guidance.path_errors import PathPoint, path_errors
+from sitl.guidance.path_law import PLANNED_ROOM_M_S, speed_acceleration, speed_before_height
+from sitl.ticks import TICK_S
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+ON_PATH, CIRCLING = 0, 1
+MORE_TICKS = 50
+"""Flown after the last arrival, so that the crossing of the target's plane is on record."""
+STATE_FIELDS = 21
+"""Of a `Flight`, in a row."""
+
+
+class Routes(NamedTuple):
+    """What n vehicles fly. Tables of all vehicles stand one below the other; those of vehicle p are rows
+    [first[p], first[p + 1]).
+
+    Attributes:
+        segments, altitude, schedule, airspeeds: as in `ReferenceTables`.
+        first_segment, first_altitude, first_schedule, first_airspeed: (n + 1,).
+        length_m, duration_s: (n,).
+        end_s_m: (n,) arc length of the last corner, where the circle begins.
+        circle: (n, 5) rows of a `Loiter`.
+        home_m: (n, 3).
+    """
+
+    segments: FloatArray
+    first_segment: IntArray
+    altitude: FloatArray
+    first_altitude: IntArray
+    schedule: FloatArray
+    first_schedule: IntArray
+    airspeeds: FloatArray
+    first_airspeed: IntArray
+    length_m: FloatArray
+    duration_s: FloatArray
+    end_s_m: FloatArray
+    circle: FloatArray
+    home_m: FloatArray
+
+
+class Network(NamedTuple):
+    """Who hears whom: links into vehicle p are [first_link[p], first_link[p + 1]), in order of sysid.
+
+    Attributes:
+        sender, weight: (n_links,) row of the vehicle that is heard, a_pq.
+        delay_ticks: of all.
+    """
+
+    first_link: IntArray
+    sender: IntArray
+    weight: FloatArray
+    delay_ticks: int
+
+
+class Law(NamedTuple):
+    """The formation law, and whether it is on (`plain` is the autopilot's airspeed hold)."""
+
+    gains: Gains
+    plain: bool
+
+
+class Record(NamedTuple):
+    """What is written down of each vehicle and tick.
+
+    Attributes:
+        truth: (n, ticks, 6) as in `sitl.truth`.
+        in_formation: (n, ticks) whether it flew its schedule.
+        along_m, along_rate_m_s: (n, ticks) e and e'.
+        arrived: (n,) tick at which the path's end was passed; -1 before.
+    """
+
+    truth: FloatArray
+    in_formation: npt.NDArray[np.bool_]
+    along_m: FloatArray
+    along_rate_m_s: FloatArray
+    arrived: IntArray
+
+
+def fly_swarm(
+    routes: Routes, aircraft: Aircraft, network: Network, law: Law, normals: FloatArray, record: Record
+) -> int:
+    """Fly until all have arrived, and a little longer, or the record is full; returns how many ticks were flown.
+
+    Args:
+        normals: (n, ticks, 5) draws for the gusts.
+        record: takes what comes to pass.
+    """
+    ticks = normals.shape[1]
+    state = np.zeros((len(routes.home_m), STATE_FIELDS))
+    stage = np.zeros((len(routes.home_m), 4))
+    start = 0
+    while start < ticks and (record.arrived.min() < 0 or start < record.arrived.max() + MORE_TICKS):
+        # The delay is the lookahead: a vehicle may run ahead of its neighbours by so much.
+        end = min(start + network.delay_ticks, ticks)
+        fly_ticks(start, end, routes, aircraft, network, law, normals, state, stage, record)
+        start = end
+    return start
+
+
+def fly_ticks(
+    start: int,
+    end: int,
+    routes: Routes,
+    aircraft: Aircraft,
+    network: Network,
+    law: Law,
+    normals: FloatArray,
+    state: FloatArray,
+    stage: FloatArray,
+    record: Record,
+) -> None:
+    """Fly ticks [start, end), at most `delay_ticks` of them.
+
+    Args:
+        state: (n, STATE_FIELDS) flights as of `start`.
+        stage: (n, 4): ON_PATH or CIRCLING, the approach to the circle, the airspeed on it.
+    """
+    for p in range(len(state)):
+        flight = flight_in(state[p])
+        tables = tables_of(p, routes)
+        circle = routes.circle[p]
+        loiter = Loiter(circle[0], circle[1], circle[2], circle[3], circle[4])
+        for tick in range(start, end):
+            n = normals[p, tick]
+            draws = (n[0], n[1], n[2], n[3], n[4])
+            if tick == 0:
+                home = routes.home_m[p]
+                flight = launched((home[0], home[1], home[2]), tables, draws, aircraft)
+            else:
+                flight = in_next_wind(flight, draws, aircraft)
+            air = flight.air
+            row = record.truth[p, tick]
+            row[0], row[1], row[2], row[3], row[4], row[5] = air.x, air.y, air.h, air.V, air.gamma, air.chi
+            position = (air.x, air.y, air.h)
+            velocity = ground_velocity(flight)
+            if stage[p, 0] == ON_PATH:
+                errors, point = path_errors(position, velocity, tick * TICK_S, flight.point, tables)
+                flight = at_point(flight, point)
+                record.in_formation[p, tick] = True
+                record.along_m[p, tick] = errors.along
+                record.along_rate_m_s[p, tick] = errors.along_rate
+                if law.plain:
+                    ahead = speed_acceleration(airspeed_at(point.s_m, tables.airspeeds), air.V)
+                else:
+                    ahead = formation_acceleration(
+                        errors, corrections_at(p, tick, network, law.gains, record), law.gains
+                    )
+                wanted = path_accelerations(errors, ahead, air.V, aircraft.airframe)
+                flight = moved(flight, wanted, aircraft)
+                if point.s_m >= routes.end_s_m[p]:
+                    record.arrived[p] = tick
+                    stage[p, 0] = CIRCLING
+                    stage[p, 1] = -1.0
+                    stage[p, 3] = airspeed_at(point.s_m, tables.airspeeds)
+            else:
+                if stage[p, 1] < 0.0:
+                    stage[p, 1] = to_go_m(air.x, air.y, loiter)
+                    stage[p, 2] = air.h
+                now = on_approach(air.x, air.y, loiter, Approach(stage[p, 2], stage[p, 1]))
+                wanted = loiter_accelerations(position, velocity, air.V, stage[p, 3], now)
+                wanted = speed_before_height(wanted, air.V, PLANNED_ROOM_M_S, aircraft.airframe)
+                flight = moved(flight, wanted, aircraft)
+        keep(flight, state[p])
+
+
+def corrections_at(p: int, tick: int, network: Network, gains: Gains, record: Record) -> float:
+    """c of the law: from the neighbours' and the own deviations of `delay_ticks` ago."""
+    then = tick - network.delay_ticks
+    total = 0.0
+    if then < 0 or not record.in_formation[p, then]:
+        return total
+    for link in range(network.first_link[p], network.first_link[p + 1]):
+        q = network.sender[link]
+        if record.in_formation[q, then]:
+            total += correction(
+                record.along_m[p, then],
+                record.along_rate_m_s[p, then],
+                record.along_m[q, then],
+                record.along_rate_m_s[q, then],
+                network.weight[link],
+                gains,
+            )
+    return total
+
+
+def tables_of(p: int, routes: Routes) -> ReferenceTables:
+    """The tables of one vehicle."""
+    return ReferenceTables(
+        routes.segments[routes.first_segment[p] : routes.first_segment[p + 1]],
+        routes.altitude[routes.first_altitude[p] : routes.first_altitude[p + 1]],
+        routes.schedule[routes.first_schedule[p] : routes.first_schedule[p + 1]],
+        routes.airspeeds[routes.first_airspeed[p] : routes.first_airspeed[p + 1]],
+        routes.length_m[p],
+        routes.duration_s[p],
+    )
+
+
+def flight_in(row: FloatArray) -> Flight:
+    """The flight that `keep` has put into a row."""
+    return Flight(
+        AirState(row[0], row[1], row[2], row[3], row[4], row[5]),
+        Controls(row[6], row[7], row[8]),
+        GustState(row[9], row[10], row[11], row[12], row[13]),
+        (row[14], row[15], row[16]),
+        PathPoint(row[17], int(row[18]), int(row[19]), int(row[20])),
+    )
+
+
+def keep(flight: Flight, row: FloatArray) -> None:
+    """Put a flight into a row of STATE_FIELDS numbers."""
+    air, controls, gusts, wind, point = flight.air, flight.controls, flight.gusts, flight.wind, flight.point
+    row[0], row[1], row[2], row[3], row[4], row[5] = air.x, air.y, air.h, air.V, air.gamma, air.chi
+    row[6], row[7], row[8] = controls.thrust, controls.lift, controls.bank
+    row[9], row[10], row[11], row[12], row[13] = gusts.along, gusts.across_1, gusts.across_2, gusts.up_1, gusts.up_2
+    row[14], row[15], row[16] = wind
+    row[17], row[18], row[19], row[20] = point.s_m, point.segment, point.altitude_piece, point.schedule_piece
