@@ -7,6 +7,7 @@ from missions.airframe import Airframe
 from missions.environment import Terrain
 from missions.frame import LocalFrame
 from sitl.formation.law import Gains
+from sitl.formation.network import Network
 
 Arm = Literal["full", "own_schedule", "plain"]
 """Of a comparison: neighbours' corrections and own schedule, own schedule only, or a plain autopilot."""
@@ -21,13 +22,12 @@ class VehicleConfig:
         frame: the scenario's local frame.
         home_m: where it stands: (x, y, z), local frame.
         airframe, terrain: what flies, and over what.
-        seed: of the gusts.
+        seed: of the gusts, and of what becomes of samples on their way.
         steady_wind_m_s: what blows, (east, north).
         forecast_wind_m_s: what the schedule reckons with, (east, north).
         gusts: intensity, a key of `sitl.aircraft.gusts.INTENSITIES_M_S`.
         gains: of the formation law.
-        weights: a_pq by neighbour's sysid.
-        delay_ticks: of the neighbours' corrections.
+        network: of its swarm.
         arm: how much of the law is on.
     """
 
@@ -42,6 +42,5 @@ class VehicleConfig:
     forecast_wind_m_s: tuple[float, float]
     gusts: str
     gains: Gains
-    weights: dict[int, float]
-    delay_ticks: int
+    network: Network
     arm: Arm

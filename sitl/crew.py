@@ -12,6 +12,8 @@ from missions.errors import InputError
 from sitl.endpoint import Endpoint
 from sitl.reports import Failed, Report
 
+KILLED = "killed, as scheduled"
+
 
 class Crew:
     """The endpoints of a process that go on. Used from the thread that steps them and from the one that serves them.
@@ -39,6 +41,12 @@ class Crew:
             self.flying = {sysid: other for sysid, other in self.flying.items() if other is not endpoint}
         self.report(Failed(endpoint.sysid, reason(endpoint.sysid, error)))
         self._on_left(endpoint.sysid, len(self.flying))
+
+    def fall(self, endpoint: Endpoint) -> None:
+        """A vehicle fails as the scenario says. Its neighbours know when it falls silent: to them it stays there."""
+        with self._lock:
+            self.flying = {sysid: other for sysid, other in self.flying.items() if other is not endpoint}
+        self.report(Failed(endpoint.sysid, f"vehicle {endpoint.sysid}: {KILLED}"))
 
     def report(self, report: Report) -> None:
         """Tell the station; when it has gone there is nobody to tell."""

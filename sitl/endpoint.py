@@ -9,6 +9,7 @@ from pathlib import Path
 from sitl.config import VehicleConfig
 from sitl.events import StatusText
 from sitl.formation.correction import Correction
+from sitl.formation.failures import FOR_EVER
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
 from sitl.services.signing import Signing
@@ -52,14 +53,19 @@ class Endpoint:
         OSError: its truth cannot be written.
 
     Attributes:
-        neighbours: sysids of those it flies in formation with.
+        delays: the least delay in ticks of each of those it flies in formation with, by sysid.
+        death_tick: when it is to fail.
         links: its sockets; they want to be served.
         face: what they are served for.
     """
 
     def __init__(self, config: EndpointConfig) -> None:
         self.sysid = config.vehicle.sysid
-        self.neighbours: Set[int] = config.vehicle.weights.keys()
+        network = config.vehicle.network
+        self.delays = {
+            other: network.channel_of(other, self.sysid).delay_ticks for other in network.neighbours(self.sysid)
+        }
+        self.death_tick = network.deaths.get(self.sysid, FOR_EVER)
         self._truth = TruthWriter(config.truth)
         store = Store(config.memory)
         self._vehicle = Vehicle(config.vehicle, self._truth, store)
@@ -89,11 +95,11 @@ class Endpoint:
                 self.face.on_simulated_tick(vehicle.snapshot())
 
     def notice(self, lost: Set[int], returned: Set[int]) -> None:
-        """Tell the stations which neighbours have gone, and which are back."""
+        """Fly on without those who have gone, and with those who are back; tells the stations."""
         with self._vehicle.lock:
-            for sysid in sorted(lost & self.neighbours):
+            for sysid in sorted(lost & self.delays.keys()):
                 self._vehicle.report(StatusText(SEVERITY_WARNING, f"Neighbour {sysid} lost, flying on"))
-            for sysid in sorted(returned & self.neighbours):
+            for sysid in sorted(returned & self.delays.keys()):
                 self._vehicle.report(StatusText(SEVERITY_NOTICE, f"Neighbour {sysid} is back"))
 
     def close(self) -> None:

@@ -13,6 +13,7 @@ class Stream(IntEnum):
     """What a stream of draws is for."""
 
     GUSTS = 1
+    CHANNEL = 2
 
 
 def generator(seed: int, sysid: int, stream: Stream) -> np.random.Generator:
@@ -20,9 +21,22 @@ def generator(seed: int, sysid: int, stream: Stream) -> np.random.Generator:
     return np.random.Generator(np.random.Philox(key=[seed, (sysid << 32) | stream]))
 
 
+def link_generator(seed: int, sender: int, receiver: int) -> np.random.Generator:
+    """The same for what becomes of a link's samples, keyed by both its ends."""
+    return generator(seed, (receiver << 8) | sender, Stream.CHANNEL)
+
+
 def normals(seed: int, sysid: int, stream: Stream, per_tick: int) -> Iterator[tuple[float, ...]]:
     """An endless stream of `per_tick` standard normal draws a tick, of a generator keyed by the rest."""
     draws = generator(seed, sysid, stream)
     while True:
         for row in draws.standard_normal((BLOCK, per_tick)).tolist():
+            yield tuple(row)
+
+
+def uniforms(seed: int, sender: int, receiver: int, per_sample: int) -> Iterator[tuple[float, ...]]:
+    """An endless stream of `per_sample` draws from [0, 1) for each sample of a link."""
+    draws = link_generator(seed, sender, receiver)
+    while True:
+        for row in draws.random((BLOCK, per_sample)).tolist():
             yield tuple(row)

@@ -23,7 +23,9 @@ from sitl.flight import (
     path_accelerations,
 )
 from sitl.formation.correction import Correction
-from sitl.formation.law import correction, formation_acceleration
+from sitl.formation.failures import within
+from sitl.formation.formation import Formation
+from sitl.formation.law import formation_acceleration
 from sitl.guidance.path_errors import START, PathErrors, path_errors
 from sitl.guidance.path_law import (
     PLANNED_ROOM_M_S,
@@ -67,6 +69,7 @@ class Pilot:
         stage: what it flies.
         errors: its deviations from the path of that, as of this tick.
         in_formation: it keeps its schedule, and neighbours' corrections count.
+        formation: what it hears of its neighbours.
         commanded: a speed that goes before the stage's.
         reached: mission items, until they are taken out.
     """
@@ -89,7 +92,10 @@ class Pilot:
         self._powerless = self._aircraft._replace(airframe=config.airframe._replace(static_thrust_n=0.0))
         self._normals = normals(config.seed, config.sysid, Stream.GUSTS, NORMALS_PER_TICK)
         self._gains = config.gains if config.arm == "full" else config.gains._replace(k1=0.0, k2=0.0)
-        self._own: deque[Correction] = deque(maxlen=config.delay_ticks + 1)
+        self.formation = Formation(config.sysid, config.network, config.seed)
+        self._frozen = config.network.frozen(config.sysid)
+        self._own: deque[Correction] = deque(maxlen=self.formation.remembers_ticks)
+        self._corrections = 0.0
 
     @property
     def airborne(self) -> bool:
@@ -163,14 +169,18 @@ class Pilot:
             errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, flight.point, stage.tables)
             self.flight = at_point(flight, point)
             self.errors = errors
-            if self.commanded is None and not stage.on_final:
+            if self.commanded is None and not stage.on_final and not within(self.tick, self._frozen):
                 self.in_formation = True
                 along, along_rate = errors.along, errors.along_rate
         own = Correction(self._config.sysid, self.tick, self.tick, self.in_formation, along, along_rate)
         self._own.append(own)
         return own
 
-    def advance(self, heard: Mapping[int, Correction]) -> None:
+    def hear(self, heard: Mapping[int, Correction]) -> None:
+        """Take in what the neighbours say; see `Formation.corrections`. Once a tick, after `observe`."""
+        self._corrections = self.formation.corrections(self.tick, self._own, heard, self._gains)
+
+    def advance(self) -> None:
         """Decide and move; what is reached is in `reached` then."""
         if self.phase is Phase.ROLLING:
             self.flight = rolled(self.flight, self._aircraft.terrain)
@@ -180,7 +190,7 @@ class Pilot:
         stage, errors, aircraft = self.stage, self.errors, self._aircraft
         if isinstance(stage, PathStage):
             assert errors is not None
-            ahead = self._ahead(errors, heard)
+            ahead = self._ahead(errors)
             wanted = path_accelerations(errors, ahead, self.flight.air.V, aircraft.airframe)
             if stage.on_final:
                 aircraft = self._flapped
@@ -207,20 +217,11 @@ class Pilot:
             return stage.accelerations(self.flight, self.airspeed_wanted_m_s, self.tick)
         return stage.accelerations(self.flight, self.airspeed_wanted_m_s)
 
-    def _ahead(self, errors: PathErrors, heard: Mapping[int, Correction]) -> float:
-        """u_t: a plain autopilot's, or the law's with the corrections of neighbours that flew their schedule then."""
+    def _ahead(self, errors: PathErrors) -> float:
+        """u_t: a plain autopilot's, or the law's."""
         if self._config.arm == "plain" or not self.in_formation:
             return speed_acceleration(self.airspeed_wanted_m_s, self.flight.air.V)
-        then = self._own[0]
-        corrections = 0.0
-        if then.in_formation and then.tick == self.tick - self._config.delay_ticks:
-            for sysid, weight in self._config.weights.items():
-                other = heard.get(sysid)
-                if other is not None and other.in_formation:
-                    corrections += correction(
-                        then.along_m, then.along_rate_m_s, other.along_m, other.along_rate_m_s, weight, self._gains
-                    )
-        return formation_acceleration(errors, corrections, self._gains)
+        return formation_acceleration(errors, self._corrections, self._gains)
 
     def _touch_down(self) -> None:
         ground_m = self._ground_m()

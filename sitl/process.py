@@ -28,7 +28,7 @@ class ProcessConfig:
     """One process.
 
     Attributes:
-        endpoints: of its vehicles; their corrections have one delay, and they begin at one tick.
+        endpoints: of its vehicles; they are in one network, and begin at one tick.
         swarm: the name in the swarm's Zenoh keys.
         peer: where its Zenoh session listens and connects.
         held: whether its clock starts held.
@@ -71,7 +71,13 @@ class _NotOpenedError(Exception):
 def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
     with open_session(config.peer) as session:
         endpoints = list(_opened(config.endpoints))
-        exchange = Exchange(session, config.swarm, {endpoint.sysid: endpoint.neighbours for endpoint in endpoints})
+        deaths = config.endpoints[0].vehicle.network.deaths
+        exchange = Exchange(
+            session,
+            config.swarm,
+            {endpoint.sysid: endpoint.delays for endpoint in endpoints},
+            {sysid: tick - 1 for sysid, tick in deaths.items()},
+        )
         clock = Clock(held=config.held, speed=config.speed, on_stop=exchange.stop)
         ending.stop = clock.stop
         alive: dict[int, zenoh.LivelinessToken] = {}
@@ -99,7 +105,7 @@ def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
                 crew.leave(endpoint, error)
         for endpoint in crew.flying.values():
             alive[endpoint.sysid].undeclare()
-            rejected = sum(exchange.rejected[neighbour] for neighbour in endpoint.neighbours)
+            rejected = sum(exchange.rejected[neighbour] for neighbour in endpoint.delays)
             crew.report(Ended(endpoint.sysid, endpoint.tick, rejected))
 
 
@@ -113,18 +119,21 @@ def _opened(configs: tuple[EndpointConfig, ...]) -> Iterator[Endpoint]:
 
 def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) -> None:
     """Tick by tick until the clock is stopped."""
-    tick, delay_ticks = first.start_tick, first.vehicle.delay_ticks
+    tick, lookahead_ticks = first.start_tick, first.vehicle.network.lookahead_ticks
     everyone, lost = crew.flying.keys(), set[int]()
     while clock.wait_for(tick):
-        # A neighbour needs a sample only `delay_ticks` later: as fast as it goes, that many share a message. The first
+        # A neighbour needs a sample only so many ticks later: as fast as it goes, that many share a message. The first
         # goes at once, since after a restart the neighbours wait for it.
-        publish_now = clock.paced or (tick + 1) % delay_ticks == 0 or tick == first.start_tick
+        publish_now = clock.paced or (tick + 1) % lookahead_ticks == 0 or tick == first.start_tick
+        for endpoint in crew.flying.values():
+            if endpoint.death_tick <= tick:
+                crew.fall(endpoint)
         for endpoint in crew.flying.values():
             try:
                 exchange.publish(endpoint.observe(), now=publish_now)
             except Exception as error:
                 crew.leave(endpoint, error)
-        heard = exchange.gather(tick - delay_ticks)
+        exchange.gather(tick)
         if clock.stopped:
             return
         now_lost = exchange.gone | (everyone - crew.flying.keys())
@@ -132,7 +141,7 @@ def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) ->
             try:
                 if now_lost != lost:
                     endpoint.notice(now_lost - lost, lost - now_lost)
-                endpoint.advance(heard)
+                endpoint.advance(exchange.heard_by(endpoint.sysid))
             except Exception as error:
                 crew.leave(endpoint, error)
         lost = now_lost

@@ -16,11 +16,10 @@ from missions.scenario import Scenario
 from sitl.child import Endpoint, EndpointProcess
 from sitl.config import Arm, VehicleConfig
 from sitl.endpoint import EndpointConfig
-from sitl.formation.graph import edges, neighbour_weights
 from sitl.formation.law import Gains
 from sitl.process import ProcessConfig
+from sitl.scenario_network import network_of
 from sitl.stands import stands
-from sitl.ticks import delay_ticks
 from sitl.zenoh_session import discard_sockets, local_peers, make_socket_folder
 
 START_TIMEOUT_S = 60.0
@@ -170,7 +169,8 @@ def _group_neighbours(groups: Sequence[tuple[EndpointConfig, ...]]) -> dict[int,
     """Which processes have neighbours in which others."""
     process_of = {one.vehicle.sysid: i for i, group in enumerate(groups) for one in group}
     return {
-        i: {process_of[sysid] for one in group for sysid in one.vehicle.weights} - {i} for i, group in enumerate(groups)
+        i: {process_of[sysid] for one in group for sysid in one.vehicle.network.neighbours(one.vehicle.sysid)} - {i}
+        for i, group in enumerate(groups)
     }
 
 
@@ -189,7 +189,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
     """What each vehicle of a scenario is told at its start."""
     formation, wind = scenario.formation, scenario.wind
     everyone = stands(scenario, options.count, options.sysid_base)
-    graph = edges(formation.graph, [stand.sysid for stand in everyone])
+    network = network_of(scenario, [stand.sysid for stand in everyone], options.delay_s)
     return [
         VehicleConfig(
             sysid=stand.sysid,
@@ -203,8 +203,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             forecast_wind_m_s=wind.forecast_m_s,
             gusts=wind.gusts,
             gains=Gains(formation.k1, formation.k2, formation.k3, formation.k0),
-            weights=neighbour_weights(stand.sysid, graph),
-            delay_ticks=delay_ticks(options.delay_s),
+            network=network,
             arm=options.arm,
         )
         for stand in everyone

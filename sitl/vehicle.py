@@ -241,7 +241,7 @@ class Vehicle:
             ready=captain.armed or flying or self.prearm() is None,
             failsafe=self._failsafes.active,
             in_formation=pilot.in_formation,
-            formation_delay_s=self._config.delay_ticks * TICK_S,
+            formation_delay_s=self._config.network.channel.delay_ticks * TICK_S,
             fence_enabled=fence.enabled,
             breach_status=fence.breached,
             breach_count=fence.count,
@@ -270,12 +270,14 @@ class Vehicle:
         """End a tick: decide, move, and note what has been reached.
 
         Args:
-            heard: by neighbour, its deviation of `delay_ticks` ago; who is not heard is left out.
+            heard: by neighbour, its deviation of as many ticks ago as its channel delays it; who said nothing is left
+                out.
         """
         pilot = self._pilot
+        pilot.hear(heard)
         was = pilot.phase
         if was is not Phase.PARKED:
-            pilot.advance(heard)
+            pilot.advance()
             if pilot.reached:
                 self._events += [ItemReached(seq) for seq in pilot.reached]
                 pilot.reached.clear()

@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from missions.scenario.model import Scenario
 def problems(scenario: Scenario) -> Iterator[str]:
     """Contradictions between keys, each as "key: what is wrong; what to do"."""
     yield from _vehicles(scenario)
+    yield from _network(scenario)
     yield from _places(scenario)
 
 
@@ -34,6 +35,26 @@ def _vehicles(scenario: Scenario) -> Iterator[str]:
         yield "shape: there is no [route] for it; add one"
     if scenario.route is not None and not any(with_slot):
         yield "route: no vehicle has a slot on it; remove it, or give the vehicles slots"
+
+
+def _network(scenario: Scenario) -> Iterator[str]:
+    known = {vehicle.sysid for vehicle in scenario.vehicles}
+    named: list[tuple[str, Sequence[int]]] = []
+    if not isinstance(graph := scenario.formation.graph, str):
+        named += [(f"formation.graph[{i}]", pair) for i, pair in enumerate(graph)]
+    named += [(f"links[{i}]", (link.sender, link.receiver)) for i, link in enumerate(scenario.links)]
+    for i, failure in enumerate(scenario.failures):
+        named.append((f"failures[{i}]", failure.vehicles))
+        named += [(f"failures[{i}].groups[{j}]", group) for j, group in enumerate(failure.groups)]
+        grouped = [sysid for group in failure.groups for sysid in group]
+        if len(set(grouped)) < len(grouped):
+            yield f"failures[{i}].groups: a vehicle is in two of them; leave it in one"
+    for key, sysids in named:
+        if missing := sorted(set(sysids) - known):
+            yield f"{key}: there is no vehicle {missing[0]}; the sysids are {min(known)} to {max(known)}"
+    for key, (one, other) in ((key, pair) for key, pair in named if key.startswith(("formation", "links"))):
+        if one == other:
+            yield f"{key}: vehicle {one} with itself; name two vehicles"
 
 
 def _places(scenario: Scenario) -> Iterator[str]:

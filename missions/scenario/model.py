@@ -16,6 +16,7 @@ from missions.errors import InputError
 from missions.frame import LocalFrame
 from missions.scenario.aircraft import AirframeModel
 from missions.scenario.keys import Count, Keys, NotNegative, Number, Point, Positive, Vector
+from missions.scenario.network import ChannelModel, FailureModel, FormationModel, LinkModel
 from missions.scenario.places import (
     AreaModel,
     ObstacleModel,
@@ -24,17 +25,6 @@ from missions.scenario.places import (
     TerrainModel,
 )
 from missions.scenario.vehicles import RouteModel, ShapeModel, VehicleModel
-
-
-class FormationModel(Keys):
-    """Who hears whom, with what delay, and the gains of the law (15)."""
-
-    graph: Literal["ring", "line", "star", "complete"] = "ring"
-    delay_s: Annotated[NotNegative, Field(le=60)] = 0.2
-    k1: NotNegative = 0.2
-    k2: NotNegative = 0.8
-    k3: NotNegative = 0.4
-    k0: NotNegative = 0.01
 
 
 class WindModel(Keys):
@@ -107,6 +97,9 @@ class Scenario(Keys):
     route: RouteModel | None = None
     airframe: AirframeModel
     formation: FormationModel = FormationModel()
+    channel: ChannelModel = ChannelModel()
+    links: tuple[LinkModel, ...] = ()
+    failures: tuple[FailureModel, ...] = ()
     wind: WindModel = WindModel()
     limits: LimitsModel
     search: SearchModel = SearchModel()

@@ -3,7 +3,8 @@
 import queue
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 
 import zenoh
 
@@ -23,7 +24,8 @@ class Exchange:
     Args:
         session: open; closed by its owner.
         swarm: part of every key.
-        neighbours: sysids to listen to, of each vehicle of this process.
+        delays: of each vehicle of this process, the least delay in ticks of each neighbour that it listens to.
+        last_ticks: of those who are to fall silent by schedule, the last tick that they tell of.
 
     Attributes:
         neighbours: those that are in other processes.
@@ -31,18 +33,28 @@ class Exchange:
         gone: neighbours that have been there and are no more.
     """
 
-    def __init__(self, session: zenoh.Session, swarm: str, neighbours: Mapping[int, Iterable[int]]) -> None:
-        heard = {neighbour for of in neighbours.values() for neighbour in of}
-        self.neighbours = tuple(sorted(heard - neighbours.keys()))
+    def __init__(
+        self,
+        session: zenoh.Session,
+        swarm: str,
+        delays: Mapping[int, Mapping[int, int]],
+        last_ticks: Mapping[int, int] = MappingProxyType({}),
+    ) -> None:
+        heard = {neighbour for of in delays.values() for neighbour in of}
+        self.neighbours = tuple(sorted(heard - delays.keys()))
         self.rejected: Counter[int] = Counter()
         self.gone: set[int] = set()
         self._present: set[int] = set()
         self._stopped = False
-        self._gathered = -1
+        self._delays = delays
+        self._last_ticks = last_ticks
+        self._least = {sysid: min(of[sysid] for of in delays.values() if sysid in of) for sysid in heard}
+        self._most = {sysid: max(of[sysid] for of in delays.values() if sysid in of) for sysid in heard}
+        self._tick = 0
         self._samples: dict[int, dict[int, Correction]] = {sysid: {} for sysid in sorted(heard)}
         self._newest = dict.fromkeys(self.neighbours, -1)
         self._own: dict[int, Correction] = {}
-        self._unsent: dict[int, list[bytes]] = {sysid: [] for sysid in neighbours}
+        self._unsent: dict[int, list[bytes]] = {sysid: [] for sysid in delays}
         # Zenoh's threads only put into the inbox; everything else is the caller's thread's.
         self._inbox: queue.SimpleQueue[_Message | None] = queue.SimpleQueue()
         self._publishers = {
@@ -52,7 +64,7 @@ class Exchange:
                 priority=zenoh.Priority.REAL_TIME,
                 express=False,
             )
-            for sysid in neighbours
+            for sysid in delays
         }
         for neighbour in self.neighbours:
             session.declare_subscriber(
@@ -88,20 +100,26 @@ class Exchange:
             self._publishers[sample.sysid].put(b"".join(unsent))
             unsent.clear()
 
-    def gather(self, tick: int) -> dict[int, Correction]:
-        """The samples of a tick, waited for, of all neighbours that are there, each tick once; none of those that are
-        late when `stop` was called."""
+    def gather(self, tick: int) -> None:
+        """Wait for all that is heard at a tick of neighbours that are there; no more once `stop` was called."""
         while self.gone and not self._inbox.empty():  # is someone back?
             self._take(self._inbox.get())
+        self._tick = tick
         for neighbour in self.neighbours:
-            while self._newest[neighbour] < tick and neighbour not in self.gone and not self._stopped:
+            needed = min(tick - self._least[neighbour], self._last_ticks.get(neighbour, tick))
+            while self._newest[neighbour] < needed and neighbour not in self.gone and not self._stopped:
                 self._take(self._inbox.get())
-        self._gathered = tick
-        heard = {}
         for sysid, samples in self._samples.items():
-            sample = samples.pop(tick, None)
+            samples.pop(tick - self._most[sysid] - 1, None)
+
+    def heard_by(self, sysid: int) -> dict[int, Correction]:
+        """What comes to one of the process's vehicles at the tick gathered for: by neighbour, its sample of as many
+        ticks ago as that link delays it at least."""
+        heard = {}
+        for neighbour, delay in self._delays[sysid].items():
+            sample = self._samples[neighbour].get(self._tick - delay)
             if sample is not None:
-                heard[sysid] = sample
+                heard[neighbour] = sample
         return heard
 
     def stop(self) -> None:
@@ -139,7 +157,7 @@ class Exchange:
             self.rejected[neighbour] += 1
             return
         for sample in samples:
-            if sample.tick > self._gathered:  # one who is back may have to catch up
+            if sample.tick >= self._tick - self._most[neighbour]:  # one who is back may have to catch up
                 self._samples[neighbour][sample.tick] = sample
             self._newest[neighbour] = max(self._newest[neighbour], sample.tick)
 

@@ -1,7 +1,7 @@
 """Communication graphs over vehicles in order of sysid (MODEL, section 6)."""
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -9,13 +9,19 @@ import numpy.typing as npt
 Edge = tuple[int, int]
 
 
-def edges(kind: str, sysids: Sequence[int]) -> tuple[Edge, ...]:
-    """The edges (p, q), p < q, of a named graph: ring, line, star (around the first) or complete.
+def edges(kind: str | Iterable[Edge], sysids: Sequence[int]) -> tuple[Edge, ...]:
+    """The edges (p, q), p < q, of a graph over vehicles.
+
+    Args:
+        kind: ring, line, star (around the first) or complete; or pairs of sysids, of which those count that fly.
+        sysids: of the vehicles.
 
     Raises:
         ValueError: no such graph.
     """
     nodes = sorted(sysids)
+    if not isinstance(kind, str):
+        return tuple(sorted({(min(pair), max(pair)) for pair in kind if set(pair) <= set(nodes)}))
     chain = list(itertools.pairwise(nodes))
     if kind == "line":
         pairs = chain

@@ -22,10 +22,15 @@ from sitl.flight import (
     moved,
     path_accelerations,
 )
+from sitl.formation.failures import within
 from sitl.formation.law import Gains, correction, formation_acceleration
+from sitl.formation.link import NEVER, trusted, waiting
 from sitl.guidance.loiter_law import Approach, Loiter, loiter_accelerations, on_approach, to_go_m
 from sitl.guidance.path_errors import PathPoint, path_errors
 from sitl.guidance.path_law import PLANNED_ROOM_M_S, speed_acceleration, speed_before_height
+from sitl.rehearsal.hearing import Hearing, epoch_at, hearing_of
+from sitl.rehearsal.record import Record
+from sitl.rehearsal.wiring import Wiring
 from sitl.ticks import TICK_S
 
 FloatArray = npt.NDArray[np.float64]
@@ -66,20 +71,6 @@ class Routes(NamedTuple):
     home_m: FloatArray
 
 
-class Network(NamedTuple):
-    """Who hears whom: links into vehicle p are [first_link[p], first_link[p + 1]), in order of sysid.
-
-    Attributes:
-        sender, weight: (n_links,) row of the vehicle that is heard, a_pq.
-        delay_ticks: of all.
-    """
-
-    first_link: IntArray
-    sender: IntArray
-    weight: FloatArray
-    delay_ticks: int
-
-
 class Law(NamedTuple):
     """The formation law, and whether it is on (`plain` is the autopilot's airspeed hold)."""
 
@@ -87,128 +78,141 @@ class Law(NamedTuple):
     plain: bool
 
 
-class Record(NamedTuple):
-    """What is written down of each vehicle and tick.
-
-    Attributes:
-        truth: (n, ticks, 6) as in `sitl.truth`.
-        in_formation: (n, ticks) whether it flew its schedule.
-        along_m, along_rate_m_s: (n, ticks) e and e'.
-        arrived: (n,) tick at which the path's end was passed; -1 before.
-    """
-
-    truth: FloatArray
-    in_formation: npt.NDArray[np.bool_]
-    along_m: FloatArray
-    along_rate_m_s: FloatArray
-    arrived: IntArray
-
-
 def fly_swarm(
-    routes: Routes, aircraft: Aircraft, network: Network, law: Law, normals: FloatArray, record: Record
+    routes: Routes,
+    aircraft: Aircraft,
+    wiring: Wiring,
+    law: Law,
+    normals: FloatArray,
+    draws: FloatArray,
+    record: Record,
 ) -> int:
-    """Fly until all have arrived, and a little longer, or the record is full; returns how many ticks were flown.
+    """Fly until all have arrived or are gone, and a little longer, or the record is full.
 
     Args:
         normals: (n, ticks, 5) draws for the gusts.
+        draws: for the channels, of `draws_of`.
         record: takes what comes to pass.
+
+    Returns:
+        How many ticks were flown.
     """
     ticks = normals.shape[1]
     state = np.zeros((len(routes.home_m), STATE_FIELDS))
     stage = np.zeros((len(routes.home_m), 4))
+    hearing = hearing_of(wiring, draws, ticks)
     start = 0
-    while start < ticks and (record.arrived.min() < 0 or start < record.arrived.max() + MORE_TICKS):
+    while start < ticks and (underway(start, wiring, record) or start < record.arrived.max() + MORE_TICKS):
         # The delay is the lookahead: a vehicle may run ahead of its neighbours by so much.
-        end = min(start + network.delay_ticks, ticks)
-        fly_ticks(start, end, routes, aircraft, network, law, normals, state, stage, record)
+        end = min(start + wiring.lookahead_ticks, ticks)
+        for p in range(len(routes.home_m)):
+            fly_one(p, start, end, routes, aircraft, wiring, law, normals, state, stage, hearing, record)
         start = end
     return start
 
 
-def fly_ticks(
+def underway(tick: int, wiring: Wiring, record: Record) -> bool:
+    """Whether anyone has yet to arrive."""
+    for p in range(len(wiring.death)):  # noqa: SIM110 (numba knows no any())
+        if record.arrived[p] < 0 and tick < wiring.death[p]:
+            return True
+    return False
+
+
+def fly_one(
+    p: int,
     start: int,
     end: int,
     routes: Routes,
     aircraft: Aircraft,
-    network: Network,
+    wiring: Wiring,
     law: Law,
     normals: FloatArray,
     state: FloatArray,
     stage: FloatArray,
+    hearing: Hearing,
     record: Record,
 ) -> None:
-    """Fly ticks [start, end), at most `delay_ticks` of them.
+    """Fly vehicle p through ticks [start, end).
 
     Args:
         state: (n, STATE_FIELDS) flights as of `start`.
         stage: (n, 4): ON_PATH or CIRCLING, the approach to the circle, the airspeed on it.
     """
-    for p in range(len(state)):
-        flight = flight_in(state[p])
-        tables = tables_of(p, routes)
-        circle = routes.circle[p]
-        loiter = Loiter(circle[0], circle[1], circle[2], circle[3], circle[4])
-        for tick in range(start, end):
-            n = normals[p, tick]
-            draws = (n[0], n[1], n[2], n[3], n[4])
-            if tick == 0:
-                home = routes.home_m[p]
-                flight = launched((home[0], home[1], home[2]), tables, draws, aircraft)
-            else:
-                flight = in_next_wind(flight, draws, aircraft)
-            air = flight.air
-            row = record.truth[p, tick]
-            row[0], row[1], row[2], row[3], row[4], row[5] = air.x, air.y, air.h, air.V, air.gamma, air.chi
-            position = (air.x, air.y, air.h)
-            velocity = ground_velocity(flight)
-            if stage[p, 0] == ON_PATH:
-                errors, point = path_errors(position, velocity, tick * TICK_S, flight.point, tables)
-                flight = at_point(flight, point)
-                record.in_formation[p, tick] = True
-                record.along_m[p, tick] = errors.along
-                record.along_rate_m_s[p, tick] = errors.along_rate
-                if law.plain:
-                    ahead = speed_acceleration(airspeed_at(point.s_m, tables.airspeeds), air.V)
-                else:
-                    ahead = formation_acceleration(
-                        errors, corrections_at(p, tick, network, law.gains, record), law.gains
+    flight = flight_in(state[p])
+    tables = tables_of(p, routes)
+    circle = routes.circle[p]
+    loiter = Loiter(circle[0], circle[1], circle[2], circle[3], circle[4])
+    freezes = wiring.freeze[wiring.first_freeze[p] : wiring.first_freeze[p + 1]]
+    epoch = 0
+    for tick in range(start, min(end, wiring.death[p])):
+        gust_draws = (
+            normals[p, tick, 0],
+            normals[p, tick, 1],
+            normals[p, tick, 2],
+            normals[p, tick, 3],
+            normals[p, tick, 4],
+        )
+        if tick == 0:
+            home = routes.home_m[p]
+            flight = launched((home[0], home[1], home[2]), tables, gust_draws, aircraft)
+        else:
+            flight = in_next_wind(flight, gust_draws, aircraft)
+        air = flight.air
+        for i in range(6):
+            record.truth[p, tick, i] = air[i]
+        position = (air.x, air.y, air.h)
+        velocity = ground_velocity(flight)
+        if stage[p, 0] == ON_PATH:
+            errors, point = path_errors(position, velocity, tick * TICK_S, flight.point, tables)
+            flight = at_point(flight, point)
+            in_formation = not within(tick, freezes)
+            record.in_formation[p, tick] = in_formation
+            record.along_m[p, tick] = errors.along
+            record.along_rate_m_s[p, tick] = errors.along_rate
+            epoch = epoch_at(tick, epoch, wiring.epoch)
+            # This loop is not a function: the tables take longer to hand over than to use.
+            corrections = 0.0
+            for link in range(wiring.first_link[p], wiring.first_link[p + 1]):
+                weight, trust, stamp = wiring.weight[epoch, link], hearing.trust[link], hearing.newest[link, tick]
+                oldest_ticks = wiring.delay_ticks[link] + wiring.jitter_ticks[link] + wiring.stale_ticks
+                if stamp == NEVER:
+                    hearing.trust[link] = waiting(trust, tick <= oldest_ticks and weight > 0.0)
+                    continue
+                q = wiring.sender[link]
+                flying = in_formation and record.in_formation[p, stamp] and record.in_formation[q, stamp]
+                used = flying and weight > 0.0 and tick - stamp <= oldest_ticks
+                if used:
+                    corrections += correction(
+                        record.along_m[p, stamp],
+                        record.along_rate_m_s[p, stamp],
+                        record.along_m[q, stamp],
+                        record.along_rate_m_s[q, stamp],
+                        weight * trust,
+                        law.gains,
                     )
-                wanted = path_accelerations(errors, ahead, air.V, aircraft.airframe)
-                flight = moved(flight, wanted, aircraft)
-                if point.s_m >= routes.end_s_m[p]:
-                    record.arrived[p] = tick
-                    stage[p, 0] = CIRCLING
-                    stage[p, 1] = -1.0
-                    stage[p, 3] = airspeed_at(point.s_m, tables.airspeeds)
+                hearing.trust[link] = trusted(trust, used)
+                record.used[link, tick] = used
+            if law.plain or not in_formation:
+                ahead = speed_acceleration(airspeed_at(point.s_m, tables.airspeeds), air.V)
             else:
-                if stage[p, 1] < 0.0:
-                    stage[p, 1] = to_go_m(air.x, air.y, loiter)
-                    stage[p, 2] = air.h
-                now = on_approach(air.x, air.y, loiter, Approach(stage[p, 2], stage[p, 1]))
-                wanted = loiter_accelerations(position, velocity, air.V, stage[p, 3], now)
-                wanted = speed_before_height(wanted, air.V, PLANNED_ROOM_M_S, aircraft.airframe)
-                flight = moved(flight, wanted, aircraft)
-        keep(flight, state[p])
-
-
-def corrections_at(p: int, tick: int, network: Network, gains: Gains, record: Record) -> float:
-    """c of the law: from the neighbours' and the own deviations of `delay_ticks` ago."""
-    then = tick - network.delay_ticks
-    total = 0.0
-    if then < 0 or not record.in_formation[p, then]:
-        return total
-    for link in range(network.first_link[p], network.first_link[p + 1]):
-        q = network.sender[link]
-        if record.in_formation[q, then]:
-            total += correction(
-                record.along_m[p, then],
-                record.along_rate_m_s[p, then],
-                record.along_m[q, then],
-                record.along_rate_m_s[q, then],
-                network.weight[link],
-                gains,
-            )
-    return total
+                ahead = formation_acceleration(errors, corrections, law.gains)
+            wanted = path_accelerations(errors, ahead, air.V, aircraft.airframe)
+            flight = moved(flight, wanted, aircraft)
+            if point.s_m >= routes.end_s_m[p]:
+                record.arrived[p] = tick
+                stage[p, 0] = CIRCLING
+                stage[p, 1] = -1.0
+                stage[p, 3] = airspeed_at(point.s_m, tables.airspeeds)
+        else:
+            if stage[p, 1] < 0.0:
+                stage[p, 1] = to_go_m(air.x, air.y, loiter)
+                stage[p, 2] = air.h
+            now = on_approach(air.x, air.y, loiter, Approach(stage[p, 2], stage[p, 1]))
+            wanted = loiter_accelerations(position, velocity, air.V, stage[p, 3], now)
+            wanted = speed_before_height(wanted, air.V, PLANNED_ROOM_M_S, aircraft.airframe)
+            flight = moved(flight, wanted, aircraft)
+    keep(flight, state[p])
 
 
 def tables_of(p: int, routes: Routes) -> ReferenceTables:

@@ -11,10 +11,12 @@ from missions.mission import Mission
 from sitl.aircraft.gusts import NORMALS_PER_TICK
 from sitl.config import VehicleConfig
 from sitl.flight import make_aircraft
+from sitl.formation.network import Network
 from sitl.noise import Stream, generator
-from sitl.rehearsal.kernel import Law, Record, fly_swarm
-from sitl.rehearsal.network import network_of
+from sitl.rehearsal.kernel import Law, fly_swarm
+from sitl.rehearsal.record import Record, empty_record
 from sitl.rehearsal.routes import routes_of
+from sitl.rehearsal.wiring import draws_of, links_of, wiring_of
 from sitl.ticks import TICK_S
 
 FloatArray = npt.NDArray[np.float64]
@@ -30,17 +32,19 @@ class Flown:
     Attributes:
         truth: by sysid: (ticks, 6) rows of x, y, h, V, gamma, chi, one a tick from tick 0.
         arrived: by sysid: the tick at which the end of the path was passed; None for who did not come so far.
+        edges: (tick, sender, receiver, whether the edge counts from then on) of each change, in order.
     """
 
     truth: dict[int, FloatArray]
     arrived: dict[int, int | None]
+    edges: list[tuple[int, int, int, bool]]
 
 
 def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission]) -> Flown:
     """Fly a swarm's missions from a held start, as its endpoints would.
 
     Args:
-        vehicles: of the swarm, in order of sysid; one airframe, terrain, wind, law and delay for all.
+        vehicles: of the swarm, in order of sysid; all have one airframe, terrain, wind, law and network.
         missions: by sysid, waypoints and speeds with a loiter at the end.
 
     Raises:
@@ -51,23 +55,30 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
     aircraft = make_aircraft(first.airframe, first.terrain.as_array(), first.gusts, first.steady_wind_m_s)
     gains = first.gains if first.arm == "full" else first.gains._replace(k1=0.0, k2=0.0)
     law = Law(gains, first.arm == "plain")
-    network = network_of(vehicles)
     n, ticks = len(vehicles), int((routes.duration_s.max() + OVERTIME_S) / TICK_S)
     normals = np.empty((n, ticks, NORMALS_PER_TICK))
     for p, vehicle in enumerate(vehicles):
         generator(vehicle.seed, vehicle.sysid, Stream.GUSTS).standard_normal(out=normals[p])
-    record = Record(
-        truth=np.empty((n, ticks, 6)),
-        in_formation=np.zeros((n, ticks), dtype=np.bool_),
-        along_m=np.empty((n, ticks)),
-        along_rate_m_s=np.empty((n, ticks)),
-        arrived=np.full(n, -1),
-    )
-    flown = compile_shared(fly_swarm)(routes, aircraft, network, law, normals, record)
+    draws = draws_of(first.network, first.seed, ticks)
+    wiring = wiring_of(first.network)
+    record = empty_record(n, len(wiring.sender), ticks)
+    flown = compile_shared(fly_swarm)(routes, aircraft, wiring, law, normals, draws, record)
+    truth = {vehicle.sysid: record.truth[p, : min(flown, wiring.death[p])] for p, vehicle in enumerate(vehicles)}
     return Flown(
-        {vehicle.sysid: record.truth[p, :flown] for p, vehicle in enumerate(vehicles)},
+        truth,
         {
             vehicle.sysid: int(tick) if tick >= 0 else None
             for vehicle, tick in zip(vehicles, record.arrived, strict=True)
         },
+        edge_changes(record, first.network),
     )
+
+
+def edge_changes(record: Record, network: Network) -> list[tuple[int, int, int, bool]]:
+    """(tick, sender, receiver, whether the edge counts from then on) of each change, in order."""
+    changes = []
+    for used, (sender, receiver) in zip(record.used, links_of(network), strict=True):
+        heard = used[: network.deaths.get(receiver)]
+        for tick in np.flatnonzero(np.diff(heard, prepend=False)).tolist():
+            changes.append((tick, sender, receiver, bool(used[tick])))
+    return sorted(changes)

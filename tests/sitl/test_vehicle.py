@@ -115,7 +115,7 @@ def test_after_the_mission_it_circles_the_target_at_the_stacked_altitude(
 def test_a_late_neighbour_slows_it_down_and_only_with_corrections(
     make_flown: MakeFlown, config: VehicleConfig, straight_mission: Mission
 ) -> None:
-    neighbour = next(iter(config.weights))
+    neighbour = config.network.neighbours(config.sysid)[0]
 
     def late(tick: int) -> dict[int, Correction]:
         return {neighbour: Correction(neighbour, tick - 5, tick, True, -20.0, 0.0)}
@@ -133,7 +133,7 @@ def test_a_late_neighbour_slows_it_down_and_only_with_corrections(
 def test_a_neighbour_that_does_not_fly_its_schedule_is_not_followed(
     make_flown: MakeFlown, config: VehicleConfig, straight_mission: Mission
 ) -> None:
-    neighbour = next(iter(config.weights))
+    neighbour = config.network.neighbours(config.sysid)[0]
     on_ground, nobody = airborne(make_flown(), straight_mission), airborne(make_flown(), straight_mission)
     on_ground.fly(300, lambda tick: {neighbour: Correction(neighbour, tick - 5, tick, False, -999.0, 0.0)})
     nobody.fly(300)

@@ -1,0 +1,83 @@
+"""A vehicle's part in the formation: its links, the graph as it knows it, and the corrections that come of both."""
+
+from collections.abc import Iterator, Mapping, Sequence, Set
+
+from sitl.formation.channel import DRAWS
+from sitl.formation.correction import Correction
+from sitl.formation.law import Gains
+from sitl.formation.link import Link
+from sitl.formation.network import Network
+from sitl.noise import uniforms
+
+
+class Formation:
+    """Corrections for one vehicle.
+
+    Args:
+        sysid: of the vehicle.
+        network: of the swarm.
+        seed: of what the channels do.
+
+    Attributes:
+        edges: (tick, neighbour, whether its edge counts from then on), of each change, until they are taken out.
+    """
+
+    def __init__(self, sysid: int, network: Network, seed: int) -> None:
+        self.edges: list[tuple[int, int, bool]] = []
+        self._sysid = sysid
+        self._network = network
+        self._seed = seed
+        self._lost: Set[int] = frozenset()
+        self._gone: frozenset[int] = frozenset()
+        self._weights = network.weights(sysid, self._gone)
+        self._links = {
+            other: self._link(other, trust=float(other in self._weights)) for other in network.neighbours(sysid)
+        }
+        self._used = dict.fromkeys(self._links, False)
+
+    @property
+    def remembers_ticks(self) -> int:
+        """How many of its own deviations, up to the present one, a vehicle needs."""
+        network = self._network
+        channels = (network.channel, *network.links.values())
+        return max(channel.delay_ticks + channel.jitter_ticks for channel in channels) + network.stale_ticks + 1
+
+    def lose(self, lost: Set[int]) -> None:
+        """These, and no others, are gone, whatever the schedule says."""
+        self._lost = lost
+
+    def corrections(self, tick: int, own: Sequence[Correction], heard: Mapping[int, Correction], gains: Gains) -> float:
+        """c of the law (15), the sum over the neighbours; once a tick.
+
+        Args:
+            own: the vehicle's deviations, that of this tick last.
+            heard: by neighbour, what it said as many ticks ago as its channel delays it; who said nothing is left out.
+        """
+        self._follow(tick)
+        total = 0.0
+        for other, link in self._links.items():
+            link.hear(tick, heard.get(other))
+            total += link.part(tick, own, self._weights.get(other, 0.0), gains)
+            if link.used != self._used[other]:
+                self._used[other] = link.used
+                self.edges.append((tick, other, link.used))
+        return total
+
+    def _follow(self, tick: int) -> None:
+        """The graph as of who is gone now; who was not foreseen as a neighbour is listened to from now on."""
+        gone = self._network.gone_at(tick) | self._lost
+        if gone == self._gone:
+            return
+        self._gone = gone
+        self._weights = self._network.weights(self._sysid, gone)
+        for other in self._weights.keys() - self._links.keys():
+            self._links[other] = self._link(other, trust=0.0)
+            self._used[other] = False
+
+    def _link(self, sender: int, trust: float) -> Link:
+        network, receiver = self._network, self._sysid
+        channel = network.channel_of(sender, receiver)
+        draws: Iterator[tuple[float, ...]] | None = None
+        if not channel.certain:
+            draws = uniforms(self._seed, sender, receiver, DRAWS)
+        return Link(channel, draws, network.silences(sender, receiver), network.stale_ticks, trust)

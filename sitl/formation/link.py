@@ -1,0 +1,115 @@
+"""What one vehicle hears of a neighbour: which sample is its newest, and how far it is to be trusted.
+
+The functions keep to the dialect that plain Python and numba compute bit for bit alike.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from sitl.formation.channel import LOST, Channel, carried
+from sitl.formation.correction import Correction
+from sitl.formation.failures import Interval, within
+from sitl.formation.law import Gains, correction
+from sitl.ticks import TICK_S
+
+FADE_S = 10.0
+"""An edge that is new, or back, gains its weight evenly within this time, so that nobody jumps."""
+NEVER = -1
+"""No sample has been heard."""
+
+
+def arrive(stamp: int, tick: int, arrivals: Any) -> None:
+    """Note that the sample stamped so arrives at a tick; `arrivals`, a ring over ticks, holds the newest of each."""
+    slot = tick % len(arrivals)
+    arrivals[slot] = max(arrivals[slot], stamp)
+
+
+def newest_heard(tick: int, newest: int, arrivals: Any) -> int:
+    """The newest stamp heard up to a tick, from that of the tick before."""
+    slot = tick % len(arrivals)
+    newest = max(newest, arrivals[slot])
+    arrivals[slot] = NEVER
+    return newest
+
+
+def trusted(trust: float, used: bool) -> float:
+    """The share of its weight that an edge has at the next tick."""
+    return min(1.0, trust + TICK_S / FADE_S) if used else 0.0
+
+
+def waiting(trust: float, patient: bool) -> float:
+    """The same while nothing has been heard yet: what it was for as long as a first sample may be on its way."""
+    return trust if patient else 0.0
+
+
+class Link:
+    """One link, at its receiver.
+
+    Args:
+        channel: of the link.
+        draws: uniform, `DRAWS` for each sample in order of sequence number; None for a channel that needs none.
+        silences: by the sender's ticks.
+        stale_ticks: see `Network`.
+        trust: at the beginning: 1 for an edge that is there from the start.
+
+    Attributes:
+        trust: share of its weight that the edge has.
+        used: whether the edge counted at this tick.
+    """
+
+    def __init__(
+        self,
+        channel: Channel,
+        draws: Iterator[tuple[float, ...]] | None,
+        silences: Sequence[Interval],
+        stale_ticks: int,
+        trust: float,
+    ) -> None:
+        self.channel = channel
+        self.trust = trust
+        self.used = False
+        self._draws = draws
+        self._silences = list(silences)
+        self._oldest_ticks = channel.delay_ticks + channel.jitter_ticks + stale_ticks
+        self._in_burst = False
+        self._newest = NEVER
+        self._arrivals = [NEVER] * (channel.jitter_ticks + 1)
+        self._samples: dict[int, Correction] = {}
+
+    def hear(self, tick: int, sample: Correction | None) -> None:
+        """Take in what the neighbour said `delay_ticks` ago; None when it said nothing. Once a tick."""
+        stamp = tick - self.channel.delay_ticks
+        delay = self.channel.delay_ticks
+        if stamp >= 0 and self._draws is not None:
+            jitter, loss, change = next(self._draws)
+            self._in_burst, delay = carried(self._in_burst, (jitter, loss, change), self.channel)
+        if sample is not None and delay != LOST and not within(stamp, self._silences):
+            self._samples[stamp] = sample
+            arrive(stamp, stamp + delay, self._arrivals)
+        before = self._newest
+        self._newest = newest_heard(tick, before, self._arrivals)
+        if self._newest > before:
+            self._samples = {stamp: one for stamp, one in self._samples.items() if stamp >= self._newest}
+
+    def part(self, tick: int, own: Sequence[Correction], weight: float, gains: Gains) -> float:
+        """The neighbour's part of the law's corrections. Call it once a tick, after `hear`.
+
+        Args:
+            own: the vehicle's own deviations, that of this tick last.
+            weight: a_pq; 0 while there is no such edge.
+        """
+        stamp, age = self._newest, tick - self._newest
+        self.used = False
+        if stamp == NEVER:
+            self.trust = waiting(self.trust, tick <= self._oldest_ticks and weight > 0.0)
+            return 0.0
+        mine, other = own[-1 - min(age, len(own) - 1)], self._samples[stamp]
+        flying = own[-1].in_formation and mine.in_formation and other.in_formation
+        self.used = flying and weight > 0.0 and mine.tick == stamp and age <= self._oldest_ticks
+        part = 0.0
+        if self.used:
+            part = correction(
+                mine.along_m, mine.along_rate_m_s, other.along_m, other.along_rate_m_s, weight * self.trust, gains
+            )
+        self.trust = trusted(self.trust, self.used)
+        return part

@@ -1,0 +1,40 @@
+"""What is written down of a rehearsed flight."""
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
+
+
+class Record(NamedTuple):
+    """Of each vehicle and tick.
+
+    Attributes:
+        truth: (n, ticks, 6) as in `sitl.truth`.
+        in_formation: (n, ticks) whether it flew its schedule.
+        along_m, along_rate_m_s: (n, ticks) e and e'.
+        used: (links, ticks) whether the edge counted.
+        arrived: (n,) tick at which the path's end was passed; -1 before.
+    """
+
+    truth: FloatArray
+    in_formation: Flags
+    along_m: FloatArray
+    along_rate_m_s: FloatArray
+    used: Flags
+    arrived: npt.NDArray[np.int64]
+
+
+def empty_record(vehicles: int, links: int, ticks: int) -> Record:
+    """A record of nothing yet, with room for a number of ticks."""
+    return Record(
+        truth=np.empty((vehicles, ticks, 6)),
+        in_formation=np.zeros((vehicles, ticks), dtype=np.bool_),
+        along_m=np.empty((vehicles, ticks)),
+        along_rate_m_s=np.empty((vehicles, ticks)),
+        used=np.zeros((links, ticks), dtype=np.bool_),
+        arrived=np.full(vehicles, -1),
+    )

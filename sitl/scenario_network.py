@@ -1,0 +1,64 @@
+"""The network that a scenario describes."""
+
+from collections.abc import Sequence
+
+from missions.scenario import Scenario
+from missions.scenario.network import BurstModel, FailureModel
+from sitl.formation.channel import Channel
+from sitl.formation.failures import FOR_EVER, Failure
+from sitl.formation.graph import edges
+from sitl.formation.network import Network
+from sitl.ticks import TICK_S, delay_ticks
+
+
+def network_of(scenario: Scenario, sysids: Sequence[int], delay_s: float) -> Network:
+    """The network of a scenario's vehicles.
+
+    Args:
+        scenario: whose formation, channel, links and failures count.
+        sysids: of the vehicles that fly.
+        delay_s: of the links that have none of their own; rounded up to whole ticks, at least one.
+    """
+    formation, channel = scenario.formation, scenario.channel
+    common = _channel(delay_s, channel.jitter_s, channel.loss, channel.bursts)
+    links = {
+        (link.sender, link.receiver): _channel(
+            delay_s if link.delay_s is None else link.delay_s,
+            channel.jitter_s if link.jitter_s is None else link.jitter_s,
+            channel.loss if link.loss is None else link.loss,
+            channel.bursts if link.bursts is None else link.bursts,
+        )
+        for link in scenario.links
+    }
+    return Network(
+        sysids=tuple(sorted(sysids)),
+        graph=edges(formation.graph, sysids),
+        channel=common,
+        links=links,
+        failures=tuple(_failure(failure) for failure in scenario.failures),
+        stale_ticks=delay_ticks(formation.stale_s),
+    )
+
+
+def _channel(delay_s: float, jitter_s: float, loss: float, bursts: BurstModel | None) -> Channel:
+    jitter_ticks = delay_ticks(jitter_s) if jitter_s > 0.0 else 0
+    if bursts is None:
+        return Channel(delay_ticks(delay_s), jitter_ticks, loss)
+    return Channel(
+        delay_ticks(delay_s),
+        jitter_ticks,
+        loss,
+        enter=min(1.0, TICK_S / bursts.every_s),
+        leave=min(1.0, TICK_S / bursts.length_s),
+        burst_loss=bursts.loss,
+    )
+
+
+def _failure(failure: FailureModel) -> Failure:
+    start = round(failure.at_s / TICK_S)
+    return Failure(
+        failure.what,
+        frozenset(failure.vehicles),
+        tuple(frozenset(group) for group in failure.groups),
+        (start, FOR_EVER if failure.for_s is None else start + delay_ticks(failure.for_s)),
+    )
