@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from multiprocessing import forkserver
+from multiprocessing.connection import wait
 from multiprocessing.context import ForkServerProcess
 
 from sitl.process import ProcessConfig, run_process
@@ -43,8 +44,8 @@ class EndpointProcess:
         """Whether some of its vehicles are not ready yet."""
         return len(self.ready) < len(self.config.endpoints)
 
-    def read_reports(self) -> None:
-        """Take what the process has reported so far."""
+    def read_reports(self) -> bool:
+        """Take what the process has reported so far; whether more may come."""
         try:
             while self.reports.poll():
                 report = self.reports.recv()
@@ -53,11 +54,14 @@ class EndpointProcess:
                 else:
                     self.last[report.sysid] = report
         except (EOFError, OSError):
-            pass
+            return False
+        return True
 
     def end(self, deadline: float) -> None:
         """See the process, which was told to terminate, to its end: by force after the deadline (monotonic time)."""
-        self.process.join(max(0.0, deadline - time.monotonic()))
+        while self.process.is_alive() and (left_s := deadline - time.monotonic()) > 0.0:
+            if self.reports in wait([self.process.sentinel, self.reports], left_s) and not self.read_reports():
+                self.process.join(left_s)  # its end of the pipe is closed, nothing more will come
         if self.process.is_alive():
             self.process.kill()
             self.process.join()

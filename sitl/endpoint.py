@@ -2,7 +2,7 @@
 of them start fast."""
 
 import time
-from collections.abc import Mapping, Set
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -61,10 +61,8 @@ class Endpoint:
 
     def __init__(self, config: EndpointConfig) -> None:
         self.sysid = config.vehicle.sysid
-        network = config.vehicle.network
-        self.delays = {
-            other: network.channel_of(other, self.sysid).delay_ticks for other in network.neighbours(self.sysid)
-        }
+        self._network = network = config.vehicle.network
+        self.delays = self._delays_of(network.neighbours(self.sysid))
         self.death_tick = network.deaths.get(self.sysid, FOR_EVER)
         self._truth = TruthWriter(config.truth)
         store = Store(config.memory)
@@ -94,13 +92,27 @@ class Endpoint:
             if self.face.wants(vehicle.tick * TICK_S):
                 self.face.on_simulated_tick(vehicle.snapshot())
 
-    def notice(self, lost: Set[int], returned: Set[int]) -> None:
-        """Fly on without those who have gone, and with those who are back; tells the stations."""
+    def notice(self, lost: Set[int], before: Set[int]) -> None:
+        """Fly on without those who are lost, and with those who are back: the graph is mended, the stations are told.
+
+        Args:
+            lost, before: who is lost, and who was.
+        """
         with self._vehicle.lock:
-            for sysid in sorted(lost & self.delays.keys()):
+            for sysid in sorted((lost - before) & self.delays.keys()):
                 self._vehicle.report(StatusText(SEVERITY_WARNING, f"Neighbour {sysid} lost, flying on"))
-            for sysid in sorted(returned & self.delays.keys()):
+            for sysid in sorted((before - lost) & self.delays.keys()):
                 self._vehicle.report(StatusText(SEVERITY_NOTICE, f"Neighbour {sysid} is back"))
+            for sysid in sorted(self._vehicle.lose(lost) - self.delays.keys()):
+                self._vehicle.report(StatusText(SEVERITY_NOTICE, f"Vehicle {sysid} is a neighbour now"))
+                self.delays |= self._delays_of([sysid])
+
+    def edges(self) -> tuple[tuple[int, int, bool], ...]:
+        """(tick, neighbour, whether its edge counted from then on), of each change so far."""
+        return self._vehicle.edges()
+
+    def _delays_of(self, neighbours: Iterable[int]) -> dict[int, int]:
+        return {other: self._network.channel_of(other, self.sysid).delay_ticks for other in neighbours}
 
     def close(self) -> None:
         """Bring the truth to the disk. Raises OSError when it does not fit."""

@@ -106,7 +106,7 @@ def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
         for endpoint in crew.flying.values():
             alive[endpoint.sysid].undeclare()
             rejected = sum(exchange.rejected[neighbour] for neighbour in endpoint.delays)
-            crew.report(Ended(endpoint.sysid, endpoint.tick, rejected))
+            crew.report(Ended(endpoint.sysid, endpoint.tick, rejected, endpoint.edges()))
 
 
 def _opened(configs: tuple[EndpointConfig, ...]) -> Iterator[Endpoint]:
@@ -120,13 +120,14 @@ def _opened(configs: tuple[EndpointConfig, ...]) -> Iterator[Endpoint]:
 def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) -> None:
     """Tick by tick until the clock is stopped."""
     tick, lookahead_ticks = first.start_tick, first.vehicle.network.lookahead_ticks
-    everyone, lost = crew.flying.keys(), set[int]()
+    everyone, lost, fallen = crew.flying.keys(), set[int](), set[int]()
     while clock.wait_for(tick):
         # A neighbour needs a sample only so many ticks later: as fast as it goes, that many share a message. The first
         # goes at once, since after a restart the neighbours wait for it.
         publish_now = clock.paced or (tick + 1) % lookahead_ticks == 0 or tick == first.start_tick
         for endpoint in crew.flying.values():
             if endpoint.death_tick <= tick:
+                fallen.add(endpoint.sysid)
                 crew.fall(endpoint)
         for endpoint in crew.flying.values():
             try:
@@ -136,11 +137,12 @@ def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) ->
         exchange.gather(tick)
         if clock.stopped:
             return
-        now_lost = exchange.gone | (everyone - crew.flying.keys())
+        now_lost = exchange.gone | {i for i in everyone - crew.flying.keys() if i not in fallen}
         for endpoint in crew.flying.values():
             try:
                 if now_lost != lost:
-                    endpoint.notice(now_lost - lost, lost - now_lost)
+                    endpoint.notice(now_lost, lost)
+                    exchange.listen(endpoint.sysid, endpoint.delays)
                 endpoint.advance(exchange.heard_by(endpoint.sysid))
             except Exception as error:
                 crew.leave(endpoint, error)

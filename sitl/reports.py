@@ -14,11 +14,18 @@ class Ready:
 
 @dataclass(frozen=True)
 class Ended:
-    """Last report of a vehicle whose clock was stopped: at which tick, and how many messages were no samples."""
+    """Last report of a vehicle whose clock was stopped.
+
+    Attributes:
+        tick: at which.
+        rejected_samples: messages that were no samples.
+        edges: (tick, neighbour, whether its edge counted from then on), of each change.
+    """
 
     sysid: int
     tick: int
     rejected_samples: int
+    edges: tuple[tuple[int, int, bool], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ import os
 import selectors
 import time
 import uuid
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from multiprocessing.connection import wait
 from pathlib import Path
@@ -81,7 +80,7 @@ class Swarm:
         ]
         size = per_process(options.per_process, len(endpoints))
         groups = [tuple(endpoints[i : i + size]) for i in range(0, len(endpoints), size)]
-        self._peers, self.station_peer = local_peers(_group_neighbours(groups))
+        self._peers, self.station_peer = local_peers(range(len(groups)))
         self._processes: list[EndpointProcess] = []
         self.endpoints: dict[int, Endpoint] = {}
         try:
@@ -163,15 +162,6 @@ def per_process(asked: int | None, count: int) -> int:
     if count <= MOST_PROCESSES or not able:
         return 1
     return math.ceil(count / (os.cpu_count() or 1))
-
-
-def _group_neighbours(groups: Sequence[tuple[EndpointConfig, ...]]) -> dict[int, set[int]]:
-    """Which processes have neighbours in which others."""
-    process_of = {one.vehicle.sysid: i for i, group in enumerate(groups) for one in group}
-    return {
-        i: {process_of[sysid] for one in group for sysid in one.vehicle.network.neighbours(one.vehicle.sysid)} - {i}
-        for i, group in enumerate(groups)
-    }
 
 
 def _endpoint_config(i: int, vehicle: VehicleConfig, options: SwarmOptions) -> EndpointConfig:

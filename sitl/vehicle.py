@@ -2,7 +2,7 @@
 
 import math
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 
 from missions.airframe import thrust_max_n
 from missions.errors import InputError
@@ -203,6 +203,15 @@ class Vehicle:
     def report(self, text: StatusText) -> None:
         """Tell the stations something."""
         self._events.append(text)
+
+    def lose(self, lost: Set[int]) -> Set[int]:
+        """Fly on without these vehicles; returns the neighbours that are left, new ones among them."""
+        self._pilot.formation.lose(lost)
+        return self._pilot.formation.neighbours_at(self.tick)
+
+    def edges(self) -> tuple[tuple[int, int, bool], ...]:
+        """(tick, neighbour, whether its edge counted from then on), of each change so far."""
+        return tuple(self._pilot.formation.edges)
 
     def snapshot(self) -> Snapshot:
         """What there is to know at this tick."""

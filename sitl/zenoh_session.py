@@ -8,7 +8,7 @@ import contextlib
 import json
 import socket
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -74,22 +74,24 @@ def sysid_of(alive: str, swarm: str) -> int:
     return int(alive.removeprefix(f"skein/{swarm}/").removesuffix("/alive"))
 
 
-def local_peers(neighbours: Mapping[int, Iterable[int]]) -> tuple[dict[int, Peer], Peer]:
+def local_peers(numbers: Iterable[int]) -> tuple[dict[int, Peer], Peer]:
     """A swarm's peers on this machine, one a process.
 
-    Of two neighbours the one with the larger number connects to the other; the station connects to all. They meet on
-    Unix sockets in a new folder, or on free TCP ports where there are none.
+    All are connected with each other, since who is lost may leave any two as neighbours: each connects to those with
+    smaller numbers, the station to all. They meet on Unix sockets in a new folder, or on free TCP ports where there
+    are none.
 
     Args:
-        neighbours: of each process, by its number.
+        numbers: of the processes.
 
     Returns:
         The processes' peers by number, and the station's.
     """
-    address = dict(zip(neighbours, _addresses(list(neighbours)), strict=True))
+    everyone = sorted(numbers)
+    address = dict(zip(everyone, _addresses(everyone), strict=True))
     peers = {
-        number: Peer((address[number],), tuple(address[other] for other in sorted(others) if other < number))
-        for number, others in neighbours.items()
+        number: Peer((address[number],), tuple(address[other] for other in everyone if other < number))
+        for number in everyone
     }
     return peers, Peer((), tuple(address.values()))
 

@@ -9,7 +9,7 @@ from types import MappingProxyType
 import zenoh
 
 from sitl.formation.correction import Correction, decode, encode
-from sitl.zenoh_session import alive_key, correction_key
+from sitl.zenoh_session import alive_key, correction_key, sysid_of
 
 _Message = tuple[int, bytes | bool]
 """From a neighbour: a message, or whether it is there."""
@@ -28,9 +28,9 @@ class Exchange:
         last_ticks: of those who are to fall silent by schedule, the last tick that they tell of.
 
     Attributes:
-        neighbours: those that are in other processes.
+        neighbours: those that are listened to in other processes.
         rejected: messages of each that were not its samples.
-        gone: neighbours that have been there and are no more.
+        gone: vehicles of the swarm that have been there and are no more.
     """
 
     def __init__(
@@ -40,19 +40,22 @@ class Exchange:
         delays: Mapping[int, Mapping[int, int]],
         last_ticks: Mapping[int, int] = MappingProxyType({}),
     ) -> None:
-        heard = {neighbour for of in delays.values() for neighbour in of}
-        self.neighbours = tuple(sorted(heard - delays.keys()))
+        self.neighbours: tuple[int, ...] = ()
         self.rejected: Counter[int] = Counter()
         self.gone: set[int] = set()
+        self._session = session
+        self._swarm = swarm
+        self._here = delays.keys()
         self._present: set[int] = set()
         self._stopped = False
-        self._delays = delays
         self._last_ticks = last_ticks
-        self._least = {sysid: min(of[sysid] for of in delays.values() if sysid in of) for sysid in heard}
-        self._most = {sysid: max(of[sysid] for of in delays.values() if sysid in of) for sysid in heard}
+        self._delays: dict[int, dict[int, int]] = {}
+        self._least: dict[int, int] = {}
+        self._most: dict[int, int] = {}
         self._tick = 0
-        self._samples: dict[int, dict[int, Correction]] = {sysid: {} for sysid in sorted(heard)}
-        self._newest = dict.fromkeys(self.neighbours, -1)
+        self._samples: dict[int, dict[int, Correction]] = {}
+        self._newest: dict[int, int] = {}
+        self._unheard: set[int] = set()
         self._own: dict[int, Correction] = {}
         self._unsent: dict[int, list[bytes]] = {sysid: [] for sysid in delays}
         # Zenoh's threads only put into the inbox; everything else is the caller's thread's.
@@ -66,16 +69,33 @@ class Exchange:
             )
             for sysid in delays
         }
-        for neighbour in self.neighbours:
-            session.declare_subscriber(
-                correction_key(swarm, neighbour),
-                zenoh.handlers.Callback(self._sample_putter(neighbour), indirect=False),
-            )
-            session.liveliness().declare_subscriber(
-                alive_key(swarm, neighbour),
-                zenoh.handlers.Callback(self._liveliness_putter(neighbour), indirect=False),
-                history=True,
-            )
+        for sysid, of in delays.items():
+            self.listen(sysid, of)
+        self._unheard.clear()
+        session.liveliness().declare_subscriber(
+            alive_key(swarm, "*"), zenoh.handlers.Callback(self._put_liveliness, indirect=False), history=True
+        )
+
+    def listen(self, sysid: int, delays: Mapping[int, int]) -> None:
+        """Listen to the neighbours of a vehicle of this process, by sysid the least delay in ticks of each.
+
+        One that is listened to only now has said things that were not heard: it is waited for as soon as it has been.
+        """
+        self._delays[sysid] = dict(delays)
+        for neighbour, delay in delays.items():
+            self._least[neighbour] = min(delay, self._least.get(neighbour, delay))
+            self._most[neighbour] = max(delay, self._most.get(neighbour, delay))
+            if neighbour in self._samples:
+                continue
+            self._samples[neighbour] = {}
+            if neighbour not in self._here:
+                self.neighbours = tuple(sorted((*self.neighbours, neighbour)))
+                self._newest[neighbour] = -1
+                self._unheard.add(neighbour)
+                self._session.declare_subscriber(
+                    correction_key(self._swarm, neighbour),
+                    zenoh.handlers.Callback(self._sample_putter(neighbour), indirect=False),
+                )
 
     def wait_for_neighbours(self, timeout_s: float) -> set[int]:
         """Wait until all neighbours are there; returns those that are not when the time is over."""
@@ -102,10 +122,12 @@ class Exchange:
 
     def gather(self, tick: int) -> None:
         """Wait for all that is heard at a tick of neighbours that are there; no more once `stop` was called."""
-        while self.gone and not self._inbox.empty():  # is someone back?
+        while (self.gone or self._unheard) and not self._inbox.empty():  # is someone back, or there at last?
             self._take(self._inbox.get())
         self._tick = tick
         for neighbour in self.neighbours:
+            if neighbour in self._unheard:
+                continue
             needed = min(tick - self._least[neighbour], self._last_ticks.get(neighbour, tick))
             while self._newest[neighbour] < needed and neighbour not in self.gone and not self._stopped:
                 self._take(self._inbox.get())
@@ -156,6 +178,7 @@ class Exchange:
         if any(sample.sysid != neighbour for sample in samples):
             self.rejected[neighbour] += 1
             return
+        self._unheard.discard(neighbour)
         for sample in samples:
             if sample.tick >= self._tick - self._most[neighbour]:  # one who is back may have to catch up
                 self._samples[neighbour][sample.tick] = sample
@@ -164,5 +187,7 @@ class Exchange:
     def _sample_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:
         return lambda sample: self._inbox.put((neighbour, sample.payload.to_bytes()))
 
-    def _liveliness_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:
-        return lambda sample: self._inbox.put((neighbour, sample.kind == zenoh.SampleKind.PUT))
+    def _put_liveliness(self, sample: zenoh.Sample) -> None:
+        sysid = sysid_of(str(sample.key_expr), self._swarm)
+        if sysid not in self._here:
+            self._inbox.put((sysid, sample.kind == zenoh.SampleKind.PUT))

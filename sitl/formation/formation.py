@@ -19,7 +19,7 @@ class Formation:
         seed: of what the channels do.
 
     Attributes:
-        edges: (tick, neighbour, whether its edge counts from then on), of each change, until they are taken out.
+        edges: (tick, neighbour, whether its edge counts from then on), of each change so far.
     """
 
     def __init__(self, sysid: int, network: Network, seed: int) -> None:
@@ -45,6 +45,11 @@ class Formation:
     def lose(self, lost: Set[int]) -> None:
         """These, and no others, are gone, whatever the schedule says."""
         self._lost = lost
+
+    def neighbours_at(self, tick: int) -> Set[int]:
+        """Whose edges count at a tick, as far as it is known who is gone."""
+        self._follow(tick)
+        return self._weights.keys()
 
     def corrections(self, tick: int, own: Sequence[Correction], heard: Mapping[int, Correction], gains: Gains) -> float:
         """c of the law (15), the sum over the neighbours; once a tick.

@@ -62,7 +62,7 @@ def test_delays_are_whole_ticks_rounded_up_at_least_one(delay_s: float, ticks: i
 @pytest.fixture
 def station() -> Iterator[tuple[zenoh.Session, Clock]]:
     """A station's session beside a vehicle's that serves a held clock."""
-    peers, station_peer = local_peers({4: []})
+    peers, station_peer = local_peers([4])
     clock = make_clock(held=True)
     with open_session(peers[4]) as vehicle, open_session(station_peer) as session:
         serve_clock(vehicle, "test", lambda: [4], clock)

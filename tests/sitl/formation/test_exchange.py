@@ -21,7 +21,7 @@ def sample(sysid: int, tick: int) -> Correction:
 @pytest.fixture
 def pair() -> Iterator[tuple[dict[int, zenoh.Session], dict[int, Exchange]]]:
     """Vehicles 1 and 2, each other's neighbours."""
-    peers, _ = local_peers({1: [2], 2: [1]})
+    peers, _ = local_peers([1, 2])
     with ExitStack() as stack:
         sessions = {sysid: stack.enter_context(open_session(peer)) for sysid, peer in peers.items()}
         exchanges = {sysid: Exchange(sessions[sysid], SWARM, {sysid: {3 - sysid: 0}}) for sysid in peers}
@@ -107,14 +107,14 @@ def test_a_sample_in_anothers_name_is_dropped(pair: Pair) -> None:
 
 
 def test_missing_neighbours_are_named() -> None:
-    peers, _ = local_peers({1: []})
+    peers, _ = local_peers([1])
     with open_session(peers[1]) as session:
         assert Exchange(session, SWARM, {1: {2: 0, 3: 0}}).wait_for_neighbours(0.1) == {2, 3}
     discard_sockets(peers[1])
 
 
 def test_neighbours_in_one_process_hear_each_other_without_zenoh() -> None:
-    peers, _ = local_peers({1: []})
+    peers, _ = local_peers([1])
     with open_session(peers[1]) as session:
         together = Exchange(session, SWARM, {1: {2: 0}, 2: {1: 0}})
         assert together.neighbours == ()
@@ -129,7 +129,7 @@ def test_neighbours_in_one_process_hear_each_other_without_zenoh() -> None:
 
 
 def test_who_comes_back_is_waited_for_again_and_hears_where_the_others_are() -> None:
-    peers, _ = local_peers({1: [2], 2: [1]})
+    peers, _ = local_peers([1, 2])
     with open_session(peers[1]) as session:
         stayed = Exchange(session, SWARM, {1: {2: 0}})
         token = session.liveliness().declare_token(alive_key(SWARM, 1))
@@ -164,7 +164,7 @@ def heard_on_return(exchange: Exchange, tick: int) -> dict[int, Correction]:
 
 
 def test_each_link_has_a_delay_of_its_own_and_who_falls_silent_by_schedule_is_not_waited_for() -> None:
-    peers, _ = local_peers({1: []})
+    peers, _ = local_peers([1])
     with open_session(peers[1]) as session:
         together = Exchange(session, SWARM, {1: {2: 3}, 2: {1: 1}, 3: {2: 2}})
         for tick in range(6):
