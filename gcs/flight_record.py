@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sitl.config import Arm
+from sitl.formation.graph import EdgeChange
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,7 @@ class FlightRecord:
         late_samples: corrections that a vehicle needed and did not have.
         lost_samples: corrections that a vehicle could not use.
         delay_margin_s: the `aircraft` margin of the formation; infinite when any delay is stable.
+        edges: changes of who makes use of whose corrections; a lost vehicle's own are not known.
     """
 
     seed: int
@@ -64,3 +66,4 @@ class FlightRecord:
     late_samples: int
     lost_samples: int
     delay_margin_s: float
+    edges: tuple[EdgeChange, ...] = ()

@@ -90,9 +90,15 @@ def flight_table(metrics: dict[str, Any]) -> Table:
             "-" if arrival is None else f"{arrival - planned:+.2f}",
             _shown(vehicle["planned_length_km"], ".2f"),
             _shown(vehicle["flown_length_km"], ".2f"),
-            "yes" if vehicle["completed"] else "[red]no[/red]",
+            _end(vehicle),
         )
     return table
+
+
+def _end(vehicle: dict[str, Any]) -> str:
+    if vehicle["completed"]:
+        return "yes"
+    return "[red]no[/red]" if vehicle["lost_s"] is None else f"[red]lost {vehicle['lost_s']:.0f}[/red]"
 
 
 def formation_table(metrics: dict[str, Any]) -> Table:

@@ -11,6 +11,8 @@ from gcs.flight_record import Event, FlightRecord, Timing
 from gcs.metrics.arrival import Arrival, arrival
 from gcs.metrics.flight_limits import FlightLimits, flight_limits
 from gcs.metrics.formation_error import Edge
+from gcs.metrics.graph_used import GraphUsed, graph_used
+from gcs.metrics.scheduled import scheduled
 from gcs.metrics.series import Series, flight_series
 from gcs.metrics.surroundings import Surroundings, airborne_row, surroundings
 from gcs.metrics.tracks import tracks
@@ -18,6 +20,7 @@ from gcs.truth import H, Truths, trajectory_sha256
 from missions.scenario import Scenario
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from sitl.config import Arm
+from sitl.scenario_network import network_of
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,7 @@ class Metrics:
     formation: FormationMetrics
     timing: Timing
     events: tuple[Event, ...]
+    graph: tuple[GraphUsed, ...]
     limits: tuple[FlightLimits, ...]
 
     def as_json(self) -> dict[str, Any]:
@@ -101,8 +105,11 @@ def measure(
     late = [end.time_s - references[i].duration_s for i, end in arrivals.items() if end.time_s is not None]
     arrived = [Event(end.time_s, i, "arrived") for i, end in arrivals.items() if end.time_s is not None]
     ends = [end.tick for end in arrivals.values() if end.tick is not None]
-    # A vehicle that was lost or stopped leaves a truth that ends where chance had it.
-    whole = not record.lost and all(len(truth) > max(ends, default=0) for truth in truths.values())
+    # A vehicle that was lost or stopped leaves a truth that ends where chance had it, unless the scenario had it so.
+    deaths = network_of(scenario, tuple(references), record.delay_s).deaths
+    whole = record.lost.keys() <= deaths.keys() and all(
+        len(truth) > max(ends, default=0) or len(truth) == deaths.get(sysid) for sysid, truth in truths.items()
+    )
     metrics = Metrics(
         scenario=scenario.name,
         seed=record.seed,
@@ -114,7 +121,8 @@ def measure(
         ),
         formation=_formation(series, around, late, record),
         timing=record.timing,
-        events=tuple(sorted((*record.events, *arrived), key=lambda event: event.t_s)),
+        events=tuple(sorted((*record.events, *scheduled(scenario), *arrived), key=lambda event: event.t_s)),
+        graph=graph_used(record.edges),
         limits=tuple(
             flight_limits(sysid, truth[airborne_row(truth[:, : H + 1], scenario) or 0 : _rows(arrivals[sysid])])
             for sysid, truth in sorted(truths.items())

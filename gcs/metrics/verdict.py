@@ -5,9 +5,11 @@ from collections.abc import Iterator
 
 from gcs.metrics.flight_limits import FlightLimits
 from gcs.metrics.metrics import FormationMetrics, Metrics, VehicleMetrics
+from gcs.metrics.scheduled import kills_s
 from missions.airframe import GRAVITY_M_S2
 from missions.scenario import Scenario
 from sitl.aircraft.gusts import INTENSITIES_M_S
+from sitl.ticks import TICK_S
 
 TRACKING_M = 10.0
 """A plan keeps its distance from ground and obstacles; the aircraft keeps to the plan, in gusts, within this."""
@@ -20,15 +22,18 @@ CLIMB_RATE_M_S = 0.5
 def shortfalls(metrics: Metrics, scenario: Scenario) -> list[str]:
     """One line for each thing that fell short; none when all is well."""
     names = {vehicle.sysid: vehicle.name for vehicle in metrics.vehicles}
-    lines = [line for vehicle in metrics.vehicles for line in _vehicle(vehicle)]
+    kills = kills_s(scenario)
+    lines = [line for vehicle in metrics.vehicles for line in _vehicle(vehicle, kills.get(vehicle.sysid))]
     lines += _distances(metrics.formation, scenario)
     for limits in metrics.limits:
         lines += [f"{names[limits.sysid]}: {line}" for line in _limits(limits, scenario)]
     return lines
 
 
-def _vehicle(vehicle: VehicleMetrics) -> Iterator[str]:
-    if vehicle.lost_s is not None:
+def _vehicle(vehicle: VehicleMetrics, killed_s: float | None) -> Iterator[str]:
+    if vehicle.lost_s is not None and killed_s is not None and abs(vehicle.lost_s - killed_s) < TICK_S:
+        pass  # as the scenario has it
+    elif vehicle.lost_s is not None:
         yield f"{vehicle.name}: lost after {vehicle.lost_s:.1f} s"
     elif not vehicle.completed:
         yield f"{vehicle.name}: did not arrive at its target"

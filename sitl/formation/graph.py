@@ -7,6 +7,8 @@ import numpy as np
 import numpy.typing as npt
 
 Edge = tuple[int, int]
+EdgeChange = tuple[int, int, int, bool]
+"""Tick, sender, receiver, and whether the receiver makes use of the sender's samples from then on."""
 
 
 def edges(kind: str | Iterable[Edge], sysids: Sequence[int]) -> tuple[Edge, ...]:

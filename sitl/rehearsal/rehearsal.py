@@ -11,6 +11,7 @@ from missions.mission import Mission
 from sitl.aircraft.gusts import NORMALS_PER_TICK
 from sitl.config import VehicleConfig
 from sitl.flight import make_aircraft
+from sitl.formation.graph import EdgeChange
 from sitl.formation.network import Network
 from sitl.noise import Stream, generator
 from sitl.rehearsal.kernel import Law, fly_swarm
@@ -32,12 +33,12 @@ class Flown:
     Attributes:
         truth: by sysid: (ticks, 6) rows of x, y, h, V, gamma, chi, one a tick from tick 0.
         arrived: by sysid: the tick at which the end of the path was passed; None for who did not come so far.
-        edges: (tick, sender, receiver, whether the edge counts from then on) of each change, in order.
+        edges: changes of who makes use of whose corrections, in order.
     """
 
     truth: dict[int, FloatArray]
     arrived: dict[int, int | None]
-    edges: list[tuple[int, int, int, bool]]
+    edges: list[EdgeChange]
 
 
 def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission]) -> Flown:
@@ -74,8 +75,8 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
     )
 
 
-def edge_changes(record: Record, network: Network) -> list[tuple[int, int, int, bool]]:
-    """(tick, sender, receiver, whether the edge counts from then on) of each change, in order."""
+def edge_changes(record: Record, network: Network) -> list[EdgeChange]:
+    """Each change of an edge, in order."""
     changes = []
     for used, (sender, receiver) in zip(record.used, links_of(network), strict=True):
         heard = used[: network.deaths.get(receiver)]
