@@ -34,6 +34,8 @@ SourceArgument = Annotated[
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder for <sysid>.param.")]
 SYSTEM_IDS = ("MAV_SYSID", "SYSID_THISMAV")
 """Each vehicle's own: no two may have the same."""
+NOT_LOADED = (*SYSTEM_IDS, "MIS_TOTAL", "FENCE_TOTAL", "RALLY_TOTAL")
+"""The totals are counted by the vehicle, and read-only."""
 
 
 @params.command("list")
@@ -141,7 +143,7 @@ def load(
 ) -> None:
     """Set all parameters of a file that differ from the vehicles', and see that they hold them.
 
-    System ids are left as they are, so that one vehicle's file may be loaded into others.
+    System ids, and the numbers of items held, are left as they are: one vehicle's file may be loaded into others.
 
     Example: skein params load backup --vehicle 1-3
     """
@@ -155,7 +157,7 @@ def load(
         def read(vehicles: "Sequence[VehicleLink]") -> None:
             for one in vehicles:
                 values = read_param(source / f"{one.sysid}.param" if source.is_dir() else source)
-                files[one.sysid] = {name: value for name, value in values.items() if name not in SYSTEM_IDS}
+                files[one.sysid] = {name: value for name, value in values.items() if name not in NOT_LOADED}
 
         async def change(one: "VehicleLink") -> dict[str, float]:
             held = await _values(one)
