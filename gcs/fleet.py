@@ -110,27 +110,47 @@ class Fleet:
         self.check()
         return [self.vehicles[sysid] for sysid in sysids]
 
+    async def hear(self, sysid: int, timeout_s: float) -> VehicleLink:
+        """Wait until this vehicle has been heard, whatever the others do; it may be one of two with one system id.
+
+        Raises:
+            InputError: it is missing after `timeout_s`.
+        """
+        try:
+            async with asyncio.timeout(timeout_s):
+                while sysid not in self.vehicles:
+                    self._news.clear()
+                    await self._news.wait()
+        except TimeoutError:
+            raise InputError(self._missing([sysid], timeout_s)) from None
+        return self.vehicles[sysid]
+
     async def discover(self, seconds: float) -> list[VehicleLink]:
-        """Listen for so long, some heartbeats' time.
+        """Listen for so long, some heartbeats' time; `check` says whether two have one system id.
 
         Returns:
             All vehicles, in the order of their system ids.
 
         Raises:
-            InputError: there are none, or two have one system id.
+            InputError: there are none.
         """
         await asyncio.sleep(seconds)
-        self.check()
         if not self.vehicles:
             raise InputError("; ".join([f"no vehicle heard within {seconds:g} s", *self.complaints()]))
         return [self.vehicles[sysid] for sysid in sorted(self.vehicles)]
 
+    def doubled(self, sysid: int) -> str | None:
+        """Who else has been heard with this system id, for people; None when nobody has."""
+        routes = self._routes.get(sysid)
+        if routes is None or routes.rival is None:
+            return None
+        return f"system id {sysid} is used by {routes.used.peer} and {routes.rival.peer}; give each vehicle its own"
+
     def check(self) -> None:
         """Raise InputError when two vehicles have been heard with one system id, or a log could not be written."""
-        for sysid, routes in self._routes.items():
-            if routes.rival is not None:
-                used, rival = routes.used.peer, routes.rival.peer
-                raise InputError(f"system id {sysid} is used by {used} and {rival}; give each vehicle its own")
+        for sysid in self._routes:
+            if reason := self.doubled(sysid):
+                raise InputError(reason)
         for log in self._logs:
             log.check()
 

@@ -1,8 +1,10 @@
-"""Signing keys from files."""
+"""Signing keys in files."""
 
 import base64
 import binascii
 import hashlib
+import os
+import secrets
 import stat
 from collections.abc import Callable
 from pathlib import Path
@@ -34,6 +36,20 @@ def read_signing_key(path: Path, warn: Callable[[str], None]) -> bytes:
     if key == NO_KEY:
         raise InputError(f"{path}: no signing key in it; write a passphrase or {KEY_BYTES} bytes into it")
     return key
+
+
+def make_signing_key(path: Path) -> None:
+    """Write a random key, as hexadecimal digits, to a new file that only its owner can read.
+
+    Raises:
+        InputError: there is such a file, which may hold a key in use, or it cannot be written.
+    """
+    try:
+        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, stat.S_IRUSR | stat.S_IWUSR)
+        with os.fdopen(descriptor, "w", encoding="ascii") as file:
+            file.write(secrets.token_hex(KEY_BYTES) + "\n")
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}; name a new file for the key") from error
 
 
 def _key(data: bytes) -> bytes:

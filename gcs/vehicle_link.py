@@ -10,6 +10,7 @@ from gcs.status_lines import StatusLines
 from gcs.tlog import TelemetryLog
 from gcs.transfers.acquaintance import Acquaintance
 from sitl.services.peer import Message, Peer
+from sitl.services.received import MAGIC_V2, SIGNED
 from sitl.services.signing import Signer, Signing
 
 OnMessage: TypeAlias = Callable[[Message], None]
@@ -103,6 +104,13 @@ class VehicleLink:
     def heard(self) -> bool:
         """Whether it is there: a vehicle sends a heartbeat each second."""
         return self.silent_s < SILENCE_S
+
+    @property
+    def signs(self) -> bool:
+        """Whether its last heartbeat was signed."""
+        heartbeat = self.latest.get("HEARTBEAT")
+        frame = heartbeat.get_msgbuf() if heartbeat is not None else bytes(3)
+        return bool(frame[0] == MAGIC_V2 and frame[2] & SIGNED)
 
     @property
     def pace(self) -> float:

@@ -6,6 +6,7 @@ from typing import Any
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.transfers.command import command
+from gcs.transfers.errors import TransferError
 from gcs.vehicle_link import VehicleLink
 from sitl.modes import Mode
 from sitl.services.opaque_id import received_opaque_id
@@ -32,22 +33,30 @@ async def vehicle_report(vehicle: VehicleLink) -> dict[str, Any]:
     """Ask a vehicle for its state.
 
     Returns:
-        By name, with units in the names; None where the vehicle does not tell.
+        By name, with units in the names; None where the vehicle does not tell. "answers" is false when it is heard but
+        does not answer, as over a link that goes one way only, or when it does not hear this station.
 
     Raises:
-        TransferError: it does not answer.
+        TransferError: it has fallen silent.
     """
-    for name, message_id in _ASKED.items():
-        if name not in vehicle.latest:
-            await command(vehicle, mavlink.MAV_CMD_REQUEST_MESSAGE, float(message_id))  # it comes before its ACK
-    return _report(vehicle)
+    try:
+        for name, message_id in _ASKED.items():
+            if name not in vehicle.latest:
+                await command(vehicle, mavlink.MAV_CMD_REQUEST_MESSAGE, float(message_id))  # it comes before its ACK
+    except TransferError:
+        if not vehicle.heard:
+            raise
+        return _report(vehicle, answers=False)
+    return _report(vehicle, answers=True)
 
 
-def _report(vehicle: VehicleLink) -> dict[str, Any]:
+def _report(vehicle: VehicleLink, answers: bool) -> dict[str, Any]:
     heartbeat = vehicle.latest["HEARTBEAT"]
     position, hud, current, state, fence = (vehicle.latest.get(name) for name in _ASKED)
     return {
         "address": str(vehicle.peer),
+        "answers": answers,
+        "signs": vehicle.signs,
         "mode": mode_name(heartbeat.custom_mode),
         "armed": bool(heartbeat.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED),
         "landed_state": _LANDED.get(state.landed_state) if state else None,

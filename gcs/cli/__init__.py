@@ -13,6 +13,7 @@ from gcs.cli.params import params
 from gcs.cli.plan import plan
 from gcs.cli.replay import replay
 from gcs.cli.reproduce import reproduce
+from gcs.cli.signing import signing
 from gcs.cli.sim import sim
 from gcs.cli.status import status
 from gcs.cli.upload import upload
@@ -30,3 +31,4 @@ WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)
 app.add_typer(params)
+app.add_typer(signing)

@@ -29,7 +29,7 @@ class Plans(StrEnum):
     all = "all"
 
 
-PlansArgument = Annotated[Plans, typer.Argument(help="What to clear.")]
+PlansArgument = Annotated[Plans, typer.Argument(metavar="mission|fence|rally|all", help="What to clear.")]
 
 
 def clear(

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gcs.cli.counted import counted
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption
 from gcs.cli.station import (
@@ -54,4 +55,6 @@ def download(
 
 
 def _words(saved: dict[str, Any]) -> str:
-    return "{file}: mission {mission} items, fence {fence} areas, rally {rally} points".format(**saved)
+    counts = {"mission": "item", "fence": "area", "rally": "point"}
+    held = ", ".join(f"{name} {counted(saved[name], what)}" for name, what in counts.items())
+    return f"{saved['file']}: {held}"

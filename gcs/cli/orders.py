@@ -49,7 +49,7 @@ def disarm(
     signing_key: KeyOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Disarm; in flight only with --force.
+    """Disarm; in flight only with --force. Waits for no vehicle that is missing.
 
     Example: skein disarm --vehicle 2
     """
@@ -57,7 +57,9 @@ def disarm(
         from gcs.transfers.command import disarm as disarm_vehicle
 
         options = StationOptions(connect, vehicle, wait, signing_key, json)
-        for_vehicles(options, "Disarm", lambda one: disarm_vehicle(one, force=force), words=lambda _: "disarmed")
+        for_vehicles(
+            options, "Disarm", lambda one: disarm_vehicle(one, force=force), words=lambda _: "disarmed", whoever=True
+        )
 
 
 def mode(
@@ -83,12 +85,12 @@ def rtl(
     signing_key: KeyOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Return to launch: mode RTL, seen in the vehicle's heartbeats.
+    """Return to launch: mode RTL, seen in the vehicle's heartbeats. Waits for no vehicle that is missing.
 
     Example: skein rtl --vehicle 2
     """
     with exit_codes():
-        _change_mode(_mode("RTL"), StationOptions(connect, vehicle, wait, signing_key, json))
+        _change_mode(_mode("RTL"), StationOptions(connect, vehicle, wait, signing_key, json), whoever=True)
 
 
 def abort(
@@ -100,18 +102,20 @@ def abort(
 ) -> None:
     """Bring every vehicle home and confirm each: RTL in the air, disarmed on the ground.
 
+    Each is told as soon as it is heard; one that is missing holds up none of the others.
+
     Example: skein abort
     """
     with exit_codes():
         from gcs.operations import bring_home
 
-        for_vehicles(StationOptions(connect, vehicle, wait, signing_key, json), "Abort", bring_home)
+        for_vehicles(StationOptions(connect, vehicle, wait, signing_key, json), "Abort", bring_home, whoever=True)
 
 
-def _change_mode(mode: "Mode", options: StationOptions) -> None:
+def _change_mode(mode: "Mode", options: StationOptions, whoever: bool = False) -> None:
     from gcs.operations import change_mode
 
-    for_vehicles(options, "Mode", lambda one: change_mode(one, mode), words=lambda _: mode.name)
+    for_vehicles(options, "Mode", lambda one: change_mode(one, mode), words=lambda _: mode.name, whoever=whoever)
 
 
 def _mode(name: str) -> "Mode":

@@ -1,5 +1,6 @@
 """`skein params`: read, change, save and load the parameters of vehicles."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,6 +15,7 @@ from gcs.cli.station import (
     VehicleOption,
     WaitOption,
     for_vehicles,
+    require_one,
 )
 
 if TYPE_CHECKING:
@@ -23,8 +25,17 @@ params = typer.Typer(name="params", help="Read, change, save and load parameters
 
 NameArgument = Annotated[str, typer.Argument(metavar="NAME", help="Such as WP_LOITER_RAD.")]
 ValueArgument = Annotated[float, typer.Argument(metavar="VALUE")]
-FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="A .param file: NAME,VALUE a line.")]
+SourceArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="FILE|DIR", help="A .param file for all, NAME,VALUE a line; or a folder with a <sysid>.param of each."
+    ),
+]
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder for <sysid>.param.")]
+SYSTEM_IDS = ("MAV_SYSID", "SYSID_THISMAV")
+"""Each vehicle's own: no two may have the same."""
+NOT_LOADED = (*SYSTEM_IDS, "MIS_TOTAL", "FENCE_TOTAL", "RALLY_TOTAL")
+"""The totals are counted by the vehicle, and read-only."""
 
 
 @params.command("list")
@@ -85,8 +96,12 @@ def set_one(
         async def change(one: "VehicleLink") -> float:
             return (await set_parameter(one, name, value)).value
 
+        def check(vehicles: "Sequence[VehicleLink]") -> None:
+            if name.upper() in SYSTEM_IDS:
+                require_one(vehicles, "one system id")
+
         options = StationOptions(connect, vehicle, wait, signing_key, json)
-        for_vehicles(options, name.upper(), change, words="{:g}".format)
+        for_vehicles(options, name.upper(), change, check=check, words="{:g}".format)
 
 
 @params.command("save")
@@ -119,7 +134,7 @@ def save(
 
 @params.command("load")
 def load(
-    file: FileArgument,
+    source: SourceArgument,
     connect: ConnectOption = None,
     vehicle: VehicleOption = None,
     wait: WaitOption = None,
@@ -128,23 +143,36 @@ def load(
 ) -> None:
     """Set all parameters of a file that differ from the vehicles', and see that they hold them.
 
-    Example: skein params load backup/1.param --vehicle 1
+    System ids, and the numbers of items held, are left as they are: one vehicle's file may be loaded into others.
+
+    Example: skein params load backup --vehicle 1-3
     """
     with exit_codes():
         from gcs.transfers.parameters import set_parameter
         from missions.formats.param import read_param
+        from missions.mission import as_float32
 
-        wanted = read_param(file)
+        files: dict[int, dict[str, float]] = {}
+
+        def read(vehicles: "Sequence[VehicleLink]") -> None:
+            for one in vehicles:
+                values = read_param(source / f"{one.sysid}.param" if source.is_dir() else source)
+                files[one.sysid] = {name: value for name, value in values.items() if name not in NOT_LOADED}
 
         async def change(one: "VehicleLink") -> dict[str, float]:
             held = await _values(one)
-            changed = {name: value for name, value in wanted.items() if held.get(name) != value}
-            for name, value in changed.items():
-                await set_parameter(one, name, value)
+            wanted = files[one.sysid].items()
+            changed = {name: value for name, value in wanted if held.get(name) != as_float32(value)}
+            for name in sorted(
+                changed, key=lambda name: name not in held
+            ):  # which may not be there: let the rest be set
+                await set_parameter(one, name, changed[name])
             return changed
 
-        words = _changed
-        for_vehicles(StationOptions(connect, vehicle, wait, signing_key, json), "Loaded", change, words=words)
+        if not source.is_dir():
+            read_param(source)  # before anybody is waited for
+        options = StationOptions(connect, vehicle, wait, signing_key, json)
+        for_vehicles(options, "Loaded", change, check=read, words=_changed)
 
 
 async def _values(one: "VehicleLink") -> dict[str, float]:

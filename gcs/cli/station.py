@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import Callable, Coroutine, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 
 import typer
 
@@ -11,9 +11,12 @@ from gcs.cli.errors import FELL_SHORT
 from gcs.cli.options import finite
 
 if TYPE_CHECKING:
+    from gcs.fleet import Fleet
     from gcs.vehicle_link import VehicleLink
     from sitl.services.signing import Signing
 
+Work: TypeAlias = "Callable[[VehicleLink], Coroutine[Any, Any, Any]]"
+Check: TypeAlias = "Callable[[list[VehicleLink]], None]"
 DEFAULT_URL = "udpin://127.0.0.1:14550"
 NAMED_WAIT_S = 10.0
 HEARD_WAIT_S = 2.2
@@ -46,6 +49,7 @@ WaitOption = Annotated[
 KeyOption = Annotated[
     Path | None, typer.Option("--signing-key", metavar="FILE", help="Sign with this key, and hear only who does.")
 ]
+SIGNS = "signs what it sends, and may hear only who has its key: --signing-key FILE"
 _LAST_SYSID = 255
 
 
@@ -85,11 +89,12 @@ def chosen_sysids(text: str | None) -> list[int] | None:
 def for_vehicles(
     options: StationOptions,
     title: str,
-    work: "Callable[[VehicleLink], Coroutine[Any, Any, Any]]",
+    work: "Work",
     *,
     sysids: Sequence[int] | None = None,
-    check: "Callable[[list[VehicleLink]], None] | None" = None,
+    check: "Check | None" = None,
     words: Callable[[Any], str] = str,
+    whoever: bool = False,
 ) -> None:
     """Find the vehicles, do some work with all of them at once, and print what came of it; exit with 1 if one failed.
 
@@ -100,21 +105,24 @@ def for_vehicles(
         sysids: the vehicles, where the options do not say it.
         check: called with the vehicles before anything is done.
         words: what the table says of a result; JSON has the result as it is.
+        whoever: do it with each vehicle as soon as it is heard, and count one that is missing as failed; otherwise
+            nothing is done before all are there, each with a system id of its own.
 
     Raises:
-        InputError: a link cannot be opened, or a vehicle is missing.
+        InputError: a link cannot be opened, nobody is heard, or a vehicle is missing where all must be there.
     """
     wanted = options.sysids() if sysids is None else sysids
-    show_results(title, asyncio.run(results_of(options, wanted, work, check)), options.json, words)
+    show_results(title, asyncio.run(results_of(options, wanted, work, check, whoever)), options.json, words)
 
 
 async def results_of(
     options: StationOptions,
     sysids: Sequence[int] | None,
-    work: "Callable[[VehicleLink], Coroutine[Any, Any, Any]]",
-    check: "Callable[[list[VehicleLink]], None] | None" = None,
+    work: "Work",
+    check: "Check | None" = None,
+    whoever: bool = False,
 ) -> dict[int, Any]:
-    """What came of some work with each vehicle, by system id: a result, or the TransferError in its place."""
+    """What came of some work with each vehicle, by system id: a result, or an error in its place. See for_vehicles."""
     from gcs.cli import output
     from gcs.fleet import Fleet
     from gcs.links.open_link import open_link
@@ -124,16 +132,48 @@ async def results_of(
         for url in options.connect or [DEFAULT_URL]:
             fleet.attach(await open_link(url))
         if sysids is None:
-            vehicles = await fleet.discover(options.wait_s or HEARD_WAIT_S)
+            sysids = [one.sysid for one in await fleet.discover(options.wait_s or HEARD_WAIT_S)]
+        patience_s = options.wait_s or NAMED_WAIT_S
+        if whoever:
+            results = await _with_whoever_is_there(fleet, sysids, patience_s, work)
         else:
-            vehicles = await fleet.wait_for(sysids, options.wait_s or NAMED_WAIT_S)
-        if check is not None:
-            check(vehicles)
-        results = await for_all(vehicles, work)
-        fleet.check()
+            vehicles = await fleet.wait_for(sysids, patience_s)
+            if check is not None:
+                check(vehicles)
+            results = await for_all(vehicles, work)
+            fleet.check()
         for line in fleet.complaints():
-            output.progress.print(line)
+            output.progress.print(line, soft_wrap=True)
+        if options.signing_key is None:
+            _advise_key(fleet, results)
         return results
+
+
+async def _with_whoever_is_there(
+    fleet: "Fleet", sysids: Sequence[int], patience_s: float, work: "Work"
+) -> dict[int, Any]:
+    from gcs.transfers.errors import TransferError
+    from missions.errors import InputError
+
+    async def one(sysid: int) -> Any:
+        try:
+            result = await work(await fleet.hear(sysid, patience_s))
+        except (InputError, TransferError) as error:
+            return error
+        doubled = fleet.doubled(sysid)
+        return result if doubled is None else TransferError(f"{doubled}; only one of them was reached")
+
+    return dict(zip(sysids, await asyncio.gather(*map(one, sysids)), strict=True))
+
+
+def _advise_key(fleet: "Fleet", results: dict[int, Any]) -> None:
+    """Say of those that failed that they sign, which may be why: the station has no key."""
+    from gcs.cli import output
+
+    for sysid, result in results.items():
+        vehicle = fleet.vehicles.get(sysid)
+        if isinstance(result, Exception) and vehicle is not None and vehicle.signs:
+            output.progress.print(f"{vehicle}: {SIGNS}", soft_wrap=True)
 
 
 def signing_of(key_file: Path | None) -> "Signing":
@@ -164,3 +204,12 @@ def show_results(title: str, results: dict[int, Any], json: bool, words: Callabl
         output.print_wide(results_table(title, list(results), done, failed))
     if failed:
         raise SystemExit(FELL_SHORT)
+
+
+def require_one(vehicles: "Sequence[VehicleLink]", what: str) -> None:
+    """Raises InputError, with what is likely a mistake, when there are several vehicles."""
+    from missions.errors import InputError
+
+    if len(vehicles) > 1:
+        heard = ", ".join(str(one.sysid) for one in vehicles)
+        raise InputError(f"{what} for several vehicles ({heard}) is likely a mistake; choose one with --vehicle")

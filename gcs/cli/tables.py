@@ -44,35 +44,45 @@ def _gap(standing: Standing) -> str:
 
 def results_table(title: str, sysids: list[int], done: dict[int, str], failed: dict[int, str]) -> Table:
     """What came of an order, a vehicle a row."""
-    table = Table("vehicle", "", "result", title=title)
+    table = Table("vehicle", "", "result", title=title, title_justify="left")
     for sysid in sysids:
         if sysid in failed:
-            table.add_row(str(sysid), "[red]failed[/red]", escape(failed[sysid]))
+            reason = failed[sysid].removeprefix(f"vehicle {sysid}: ")
+            table.add_row(str(sysid), "[red]failed[/red]", escape(reason))
         else:
             table.add_row(str(sysid), "[green]ok[/green]", escape(done[sysid]))
     return table
 
 
 def status_table(reports: dict[int, Any]) -> Table:
-    """What each vehicle says of itself."""
-    table = _table("Vehicles", ["vehicle", "address", "mode", "armed", "state", "above home m", "airspeed m/s", "item"])
-    table.columns[1].no_wrap = True
+    """What each vehicle says of itself; in 80 columns, for all but the longest addresses."""
+    table = _table("Vehicles", ["id", "address", "mode", "state", "above\nhome m", "air\nm/s", "item"])
+    for column in table.columns:
+        column.no_wrap = column.header != "address"
     for sysid, report in reports.items():
         if isinstance(report, Exception):
-            table.add_row(str(sysid), f"[red]{escape(str(report))}[/red]")
+            table.add_row(str(sysid), "-", "-", "[red]failed[/red]", "-", "-", "-")
             continue
-        state = "[red]fence breached[/red]" if report["fence_breached"] else report["landed_state"] or "-"
         table.add_row(
             str(sysid),
             report["address"],
             report["mode"],
-            "[yellow]yes[/yellow]" if report["armed"] else "no",
-            state,
+            _state(report),
             _shown(report["relative_altitude_m"], ".0f"),
             _shown(report["airspeed_m_s"], ".1f"),
             f"{report['mission_item']}/{report['mission_items']}" if report["mission_items"] else "-",
         )
     return table
+
+
+def _state(report: dict[str, Any]) -> str:
+    """Disarmed, or armed and where; a breached fence above all."""
+    if report["fence_breached"]:
+        return "[red]breach[/red]"
+    if not report["armed"]:
+        return "disarmed"
+    where = report["landed_state"]
+    return "[yellow]armed[/yellow]" if where in (None, "on ground") else str(where)
 
 
 def flight_table(metrics: dict[str, Any]) -> Table:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gcs.cli.counted import counted
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption
 from gcs.cli.station import (
@@ -15,6 +16,7 @@ from gcs.cli.station import (
     VehicleOption,
     WaitOption,
     for_vehicles,
+    require_one,
 )
 
 if TYPE_CHECKING:
@@ -53,7 +55,11 @@ def upload(
             )
         else:
             plan = _plan_of_file(source)
-            check = _refuse_one_for_all if options.vehicle is None else None
+
+            def check(vehicles: "Sequence[VehicleLink]") -> None:
+                if options.vehicle is None:
+                    require_one(vehicles, "one file")
+
             for_vehicles(options, title, lambda one: upload_plan(one, plan), check=check, words=_words)
 
 
@@ -82,14 +88,5 @@ def _plan_of_file(path: Path) -> "Plan":
     raise InputError(f"{path}: neither a run's folder nor a .plan or .waypoints file")
 
 
-def _refuse_one_for_all(vehicles: "Sequence[VehicleLink]") -> None:
-    from missions.errors import InputError
-
-    if len(vehicles) == 1:
-        return
-    heard = ", ".join(str(one.sysid) for one in vehicles)
-    raise InputError(f"one file for several vehicles ({heard}) is likely a mistake; choose with --vehicle")
-
-
 def _words(counts: dict[str, int]) -> str:
-    return ", ".join(f"{name} {count} items" for name, count in counts.items())
+    return ", ".join(f"{name} {counted(count, 'item')}" for name, count in counts.items())

@@ -1,6 +1,7 @@
 """A TCP connection to one vehicle, as to a simulator's 5760; when it is lost, it is made again."""
 
 import asyncio
+import os
 from typing import cast
 
 from gcs.links.link import OnBytes, OnPeer, ignore_bytes, ignore_peer
@@ -43,7 +44,7 @@ class TcpLink(asyncio.Protocol):
         try:
             await link._connect()
         except OSError as error:
-            reason = error.strerror or str(error)
+            reason = os.strerror(error.errno) if error.errno and error.errno > 0 else error.strerror or str(error)
             raise InputError(f"{link.peer}: {reason}; start the vehicle or check the address") from error
         return link
 

@@ -10,6 +10,7 @@ from gcs.transfers.run import run
 from gcs.transfers.transfer import Transfer
 from gcs.vehicle_link import VehicleLink
 from missions.mission import MissionItem
+from sitl.modes import Mode
 from sitl.services.peer import Message
 
 _PARAMS = 7
@@ -136,10 +137,10 @@ async def disarm(vehicle: VehicleLink, *, force: bool = False) -> None:
     await must(vehicle, "disarming", command_long(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0.0, _FORCED if force else 0.0))
 
 
-async def set_mode(vehicle: VehicleLink, custom_mode: int) -> None:
-    """Change to a mode of ArduPlane's numbering; raises TransferError with the vehicle's reason when it refuses."""
+async def set_mode(vehicle: VehicleLink, mode: Mode) -> None:
+    """Change to a mode; raises TransferError with the vehicle's reason when it refuses."""
     custom = float(mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
-    await must(vehicle, f"mode {custom_mode}", command_long(mavlink.MAV_CMD_DO_SET_MODE, custom, float(custom_mode)))
+    await must(vehicle, f"mode {mode.name}", command_long(mavlink.MAV_CMD_DO_SET_MODE, custom, float(mode)))
 
 
 def _name(number: int) -> str:

@@ -172,7 +172,7 @@ class MavlinkFace:
     def _on_heartbeat(self, message: Message, peer: Peer) -> None:
         """A station is there. All are obeyed; MAV_GCS_SYSID is whose silence counts.
 
-        One that is new here is shown everything at once: with the clock held, nothing falls due.
+        One that is new here is shown everything at once, a heartbeat first: with the clock held, nothing falls due.
         """
         if message.type != mavlink.MAV_TYPE_GCS:
             return
@@ -180,6 +180,7 @@ class MavlinkFace:
             self._vehicle.hear_station(self._now())
         if peer not in self._greeted:
             self._greeted.add(peer)
+            self._reply(heartbeat(self._vehicle.snapshot()), peer)
             for shown in picture(self._view()):
                 self._reply(shown, peer)
             if (damage := self._vehicle.parameters.damage) is not None:

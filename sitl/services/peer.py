@@ -1,5 +1,6 @@
 """Who is at the other end of a link, and which station is speaking through it."""
 
+import ipaddress
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
@@ -16,6 +17,16 @@ class Peer(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.transport} {self.host}:{self.port}"
+
+    @property
+    def is_local(self) -> bool:
+        """Whether no network lies between: a serial device, or this machine's loopback."""
+        if self.transport == "serial" or self.host == "localhost":
+            return True
+        try:
+            return ipaddress.ip_address(self.host).is_loopback
+        except ValueError:
+            return False
 
 
 class Station(NamedTuple):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gcs.signing_key import read_signing_key
+from gcs.signing_key import make_signing_key, read_signing_key
 from missions.errors import InputError
 
 KEY = bytes(range(100, 132))
@@ -50,3 +50,22 @@ def test_a_key_that_all_can_read_is_warned_of(tmp_path: Path) -> None:
         file.chmod(mode)
         read_signing_key(file, warnings.append)
         assert len(warnings) == count
+
+
+def test_a_new_key_is_random_and_its_owner_s_alone(tmp_path: Path) -> None:
+    warnings: list[str] = []
+    keys = set()
+    for name in ("one", "other"):
+        make_signing_key(tmp_path / name)
+        assert (tmp_path / name).stat().st_mode & 0o777 == 0o600
+        keys.add(read_signing_key(tmp_path / name, warnings.append))
+    assert len(keys) == 2
+    assert warnings == []
+
+
+def test_a_key_that_is_there_is_not_replaced(tmp_path: Path) -> None:
+    file = tmp_path / "key"
+    file.write_bytes(KEY)
+    with pytest.raises(InputError, match=r"key: File exists; name a new file"):
+        make_signing_key(file)
+    assert file.read_bytes() == KEY

@@ -1,4 +1,5 @@
-"""Whether a vehicle is well: SYS_STATUS, EKF_STATUS_REPORT, EXTENDED_SYS_STATE, FENCE_STATUS, SYSTEM_TIME."""
+"""Whether a vehicle is well: SYS_STATUS, BATTERY_STATUS, EKF_STATUS_REPORT, EXTENDED_SYS_STATE, FENCE_STATUS,
+SYSTEM_TIME."""
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
@@ -31,6 +32,9 @@ _EKF_WELL = (
 
 _FENCE_ID = 1
 
+_UNKNOWN_MV, _UNKNOWN_CENTIDEGREES, _UNKNOWN = 0xFFFF, 0x7FFF, -1
+_CELLS = 10
+
 
 def sys_status(view: View) -> Message:
     """SYS_STATUS: every sensor in health, no battery modelled; the fence's bits and that of the pre-arm checks.
@@ -41,9 +45,26 @@ def sys_status(view: View) -> Message:
     present = _SENSORS | (_FENCE if now.fence_enabled or view.plan_ids[_FENCE_ID] else 0)
     enabled = _SENSORS | (_FENCE if now.fence_enabled else 0)
     health = (_SENSORS | _FENCE) & ~(_FENCE if now.breach_status else 0) & ~(0 if now.ready else _READY)
-    unknown_voltage, unknown = 0xFFFF, -1
     return mavlink.MAVLink_sys_status_message(
-        present, enabled, health, 0, unknown_voltage, unknown, unknown, 0, 0, 0, 0, 0, 0
+        present, enabled, health, 0, _UNKNOWN_MV, _UNKNOWN, _UNKNOWN, 0, 0, 0, 0, 0, 0
+    )
+
+
+def battery_status(view: View) -> Message:
+    """BATTERY_STATUS: one battery of which nothing is known, as in SYS_STATUS, for stations that insist on the message.
+
+    Each value is the one that means "unknown"; the cells of the extension are 0, "no cell".
+    """
+    return mavlink.MAVLink_battery_status_message(
+        0,
+        mavlink.MAV_BATTERY_FUNCTION_UNKNOWN,
+        mavlink.MAV_BATTERY_TYPE_UNKNOWN,
+        _UNKNOWN_CENTIDEGREES,
+        [_UNKNOWN_MV] * _CELLS,
+        _UNKNOWN,
+        _UNKNOWN,
+        _UNKNOWN,
+        _UNKNOWN,
     )
 
 

@@ -18,6 +18,7 @@ from sitl.services.stream_messages.flight import (
 )
 from sitl.services.stream_messages.formation import formation_values
 from sitl.services.stream_messages.health import (
+    battery_status,
     ekf_status_report,
     extended_sys_state,
     fence_status,
@@ -94,6 +95,7 @@ STREAMS: dict[int, Stream] = {
     CurrentMode.id: Stream(current_mode, _SLOW_US),
     mavlink.MAVLINK_MSG_ID_HOME_POSITION: Stream(home_position, _SLOWEST_US),
     mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: Stream(gps_global_origin, OFF_US),
+    mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: Stream(battery_status, OFF_US),
 }
 """By message id."""
 

@@ -117,3 +117,7 @@ def test_a_refused_command_is_an_error_with_the_vehicles_words(system: Any, vehi
     with pytest.raises(peer_module("mavsdk.plugins.action.action").ActionError):
         plugin("action", system).arm()
     assert not vehicle.state.armed
+
+
+def test_it_sets_the_rate_of_the_battery_s_message(system: Any) -> None:
+    plugin("telemetry", system).set_rate_battery(2.0)  # raises when the vehicle denies it

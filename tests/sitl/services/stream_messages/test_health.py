@@ -5,7 +5,13 @@ from typing import Any
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from sitl.services.stream_messages.health import extended_sys_state, fence_status, sys_status, system_time
+from sitl.services.stream_messages.health import (
+    battery_status,
+    extended_sys_state,
+    fence_status,
+    sys_status,
+    system_time,
+)
 from sitl.snapshot import Breach, LandedState
 
 FENCE, READY = mavlink.MAV_SYS_STATUS_GEOFENCE, mavlink.MAV_SYS_STATUS_PREARM_CHECK
@@ -59,3 +65,12 @@ def test_a_breach_is_counted_and_dated(view: Any) -> None:
 def test_the_date_goes_with_simulated_time(view: Any) -> None:
     message = system_time(view())
     assert (message.time_unix_usec, message.time_boot_ms) == (1_700_000_012_520_000, 12_520)
+
+
+def test_a_battery_that_is_not_modelled_is_unknown_in_both_messages(view: Any) -> None:
+    battery, status = battery_status(view()), sys_status(view())
+    assert battery.voltages == [0xFFFF] * 10
+    assert status.voltage_battery == 0xFFFF
+    assert battery.current_battery == status.current_battery == -1
+    assert battery.battery_remaining == status.battery_remaining == -1
+    assert battery.temperature == 0x7FFF
