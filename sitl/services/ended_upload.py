@@ -10,10 +10,10 @@ from sitl.services.peer import Message, Station
 ASKS_AGAIN_S = (0.7, 1.1, 1.5)
 """When the item that decided an upload is asked for once more, after its MISSION_ACK, of a station that says nothing.
 
-MAVSDK and QGroundControl wait for a MISSION_ACK and do nothing for it, the one for 2.5 s, the other for 1.5 s; both give
-an item again that they are asked for, and are told again. To repeat the MISSION_ACK itself would be no help: MAVSDK takes
-any for one of the transfer that it has begun since. It begins that one anew after 0.5 s, so it has been heard by 0.7 s,
-and of one upload it bears to be asked for an item four times.
+MAVSDK and QGroundControl wait for a MISSION_ACK and do nothing for it, the one for 2.5 s, the other for 1.5 s; both
+give an item again that they are asked for, and are told again. To repeat the MISSION_ACK itself would be no help:
+MAVSDK takes any for one of the transfer that it has begun since. It repeats the beginning of that after 0.5 s, so it
+has been heard by 0.7 s; and of one upload it bears to be asked for an item four times.
 """
 
 
