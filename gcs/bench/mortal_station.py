@@ -88,7 +88,7 @@ class MortalStation:
             transfer.on_message(message)
 
     def _count(self, message: Message) -> None:
-        if self._left is not None and message.get_type() in _COUNTED:
+        if self._left and message.get_type() in _COUNTED:
             self._left -= 1
 
 

@@ -17,7 +17,7 @@ SEED = 1
 MOST_GROWN_MB = 20.0
 LOSSES = (0.0, 0.1, 0.25, 0.4)
 UPLOADS = 100
-ITEMS_OF_KILLED = 12
+ITEMS_OF_KILLED = 8
 
 
 def soak(out: Path) -> int:

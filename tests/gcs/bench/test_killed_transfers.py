@@ -15,8 +15,8 @@ if sys.platform == "win32":
     pytest.skip("nobody can be killed in the middle of a line there", allow_module_level=True)
 
 ITEMS = 4
-LAST_ITEM_SENT, ACK_HEARD, OVER = 9, 10, 11
-"""Messages of an upload: MISSION_COUNT, four requests and items, MISSION_ACK; then, of one that is over."""
+LAST_ITEM_SENT, OVER = 9, 1000
+"""Messages of an upload: MISSION_COUNT, four requests and items; and more than there are, on however slow a machine."""
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,6 @@ def test_an_endpoint_killed_at_any_message_has_a_whole_plan_when_it_is_back(
     assert transfers.kill_endpoint(plan, before) == Kills(len(before), old=len(before))
     kills = transfers.kill_endpoint(plan, [LAST_ITEM_SENT])
     assert (kills.neither, kills.old + kills.new) == (0, 1)  # it may have been the quicker
-    assert transfers.kill_endpoint(plan, [ACK_HEARD]) == Kills(1, new=1)
     assert transfers.kill_endpoint(plan, [OVER]) == Kills(1, new=1)
 
 
@@ -51,4 +50,5 @@ def test_when_a_station_is_killed_others_find_a_whole_plan_and_it_goes_on_at_onc
     transfers: KilledTransfers, plan: PlanType
 ) -> None:
     assert transfers.kill_station(plan, [1 + 3 * plan]) == Kills(1, old=1, busy=1)
-    assert transfers.kill_station(plan, [ACK_HEARD]) == Kills(1, new=1)
+    kills = transfers.kill_station(plan, [LAST_ITEM_SENT])
+    assert (kills.neither, kills.old + kills.new) == (0, 1)
