@@ -1,7 +1,9 @@
 """What a vehicle remembers over restarts: named pieces of bytes in a folder of its own, each whole or not at all."""
 
 import contextlib
+import errno
 import os
+import sys
 import zlib
 from pathlib import Path
 
@@ -42,10 +44,12 @@ class Store:
         return piece
 
     def write(self, name: str, piece: bytes) -> None:
-        """Keep a piece in place of the old one: after a crash at any moment it is the one or the other, whole.
+        """Keep a piece in place of the old one: after a crash or a loss of power at any moment it is the one or the
+        other, whole, and once this has returned, the new one.
 
         Raises:
-            InputError: it could not be written; the old one is still there.
+            InputError: it could not be written, and the old one is still there; or it is there and the disk does not
+                promise that it stays.
         """
         if self._folder is None:
             self._pieces[name] = piece
@@ -53,7 +57,7 @@ class Store:
         path = self._folder / name
         new = path.with_name(name + ".new")
         try:
-            self._folder.mkdir(parents=True, exist_ok=True)
+            _make(self._folder)
             with new.open("wb") as file:
                 file.write(zlib.crc32(piece).to_bytes(_CHECKSUM_BYTES, "big") + piece)
                 file.flush()
@@ -63,3 +67,34 @@ class Store:
             with contextlib.suppress(OSError):
                 new.unlink(missing_ok=True)
             raise InputError(f"{path}: {error.strerror}; old one kept") from error
+        try:
+            _sync(self._folder)
+        except OSError as error:
+            raise InputError(f"{path}: {error.strerror}; it may be lost when the power goes") from error
+
+
+def _make(folder: Path) -> None:
+    """Make a folder, and bring it to the disk."""
+    if not folder.is_dir():
+        _make(folder.parent)
+        folder.mkdir(exist_ok=True)
+        _sync(folder.parent)
+
+
+if sys.platform != "win32":
+
+    def _sync(folder: Path) -> None:
+        """Bring the names in a folder to the disk; what a file system does not do for folders is not asked of it."""
+        opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            os.fsync(opened)
+        except OSError as error:
+            if error.errno != errno.EINVAL:
+                raise
+        finally:
+            os.close(opened)
+
+else:
+
+    def _sync(folder: Path) -> None:
+        """Windows has no such thing for folders."""

@@ -1,5 +1,5 @@
-"""`make soak`: hostile traffic and lossy links at full size; writes the figures, and fails when an end has grown or
-an upload has not come through."""
+"""`make soak`: hostile traffic, lossy links and killed ends at full size; writes the figures, and fails when an end has
+grown, an upload has not come through, or a kill has left something else than a whole plan."""
 
 import json
 import sys
@@ -9,6 +9,7 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from gcs.bench.fuzz import fuzz_endpoint, fuzz_station
+from gcs.bench.killed_transfers import measure_kills
 from gcs.bench.lossy_transfers import measure_transfers
 
 PIECES = 1_000_000
@@ -16,6 +17,7 @@ SEED = 1
 MOST_GROWN_MB = 20.0
 LOSSES = (0.0, 0.1, 0.25, 0.4)
 UPLOADS = 100
+ITEMS_OF_KILLED = 8
 
 
 def soak(out: Path) -> int:
@@ -25,13 +27,15 @@ def soak(out: Path) -> int:
         running = {name: workers.submit(fuzz, PIECES, SEED) for name, fuzz in ends.items()}
         transfers = [asdict(measured) for measured in workers.map(measure_transfers, LOSSES, [UPLOADS] * len(LOSSES))]
         fuzzed = {name: asdict(future.result()) for name, future in running.items()}
-    figures = {**fuzzed, "transfers": transfers}
+    kills = {who: asdict(kills) for who, kills in measure_kills(ITEMS_OF_KILLED).items()}
+    figures = {**fuzzed, "transfers": transfers, "kills": kills}
     out.mkdir(parents=True, exist_ok=True)
     text = json.dumps(figures, indent=1)
     (out / "soak.json").write_text(text + "\n", encoding="utf-8")
     print(text)
     grown = any(end["grown_mb"] > MOST_GROWN_MB for end in fuzzed.values())
-    return int(grown or any(measured["failed"] for measured in transfers))
+    failed = any(measured["failed"] for measured in transfers)
+    return int(grown or failed or any(killed["neither"] for killed in kills.values()))
 
 
 if __name__ == "__main__":

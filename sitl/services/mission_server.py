@@ -23,6 +23,8 @@ _GIVING: dict[str, Handler] = {
 _LIST = "MISSION_REQUEST_LIST"
 """What begins a download: not while another station uploads a plan of the same type."""
 
+_ITEMS = frozenset({"MISSION_ITEM", "MISSION_ITEM_INT"})
+
 _OTHERS: dict[str, Handler] = {
     _LIST: PlanServer.on_request_list,
     "MISSION_ITEM": PlanServer.on_item,
@@ -76,6 +78,9 @@ class MissionServer:
         if kind not in _KINDS or message.target_system not in (0, self._vehicle.sysid):
             return
         station = Station.of(message, peer)
+        if kind not in _ITEMS:
+            for one in self._servers.values():
+                one.moved_on(station)
         server = self._servers.get(message.mission_type)
         if kind == _CLEAR and (server is not None or message.mission_type == PlanType.ALL):
             self._on_clear(message.mission_type, station)

@@ -11,11 +11,12 @@ from missions.mission import MissionItem
 from missions.plan_type import PlanType
 from sitl.events import StatusText
 from sitl.modes import Mode
+from sitl.services.ended_upload import EndedUpload
 from sitl.services.item_rules import Refusal
 from sitl.services.mission_items import check_item, item_message
 from sitl.services.opaque_id import MissionAck, MissionCount, opaque_id
 from sitl.services.peer import Message, Peer, Send, Station
-from sitl.services.plan_upload import EndedUpload, PlanUpload
+from sitl.services.plan_upload import PlanUpload
 from sitl.services.station_memory import StationMemory
 from sitl.services.vehicle import Vehicle
 
@@ -74,11 +75,13 @@ class PlanServer:
     @property
     def deadline_s(self) -> float:
         """When `on_tick` has something to do."""
-        return math.inf if self._upload is None else self._upload.deadline_s
+        return min((of.deadline_s for of in (self._upload, self._ended) if of is not None), default=math.inf)
 
     def on_tick(self) -> None:
         """Ask again for items that do not come; give up in the end."""
-        upload = self._upload
+        ended, upload = self._ended, self._upload
+        if ended is not None and self._now() >= ended.deadline_s:
+            self._send(ended.ask_again(), ended.station.peer)
         if upload is None or self._now() < upload.deadline_s:
             return
         if self._now() < upload.gives_up_at_s:
@@ -93,6 +96,13 @@ class PlanServer:
         self._downloads.forget(peer)
         if self._upload is not None and self._upload.station.peer == peer:
             self._upload = None
+        if self._ended is not None and self._ended.station.peer == peer:
+            self._ended = None
+
+    def moved_on(self, station: Station) -> None:
+        """A station has begun something else than the upload that has ended: it knows how, or no longer cares."""
+        if self._ended is not None and self._ended.station == station:
+            self._ended.rest()
 
     def on_count(self, message: Message, station: Station) -> None:
         """MISSION_COUNT: an upload of the whole plan begins, or begins anew."""
@@ -232,7 +242,9 @@ class PlanServer:
         if upload.strict:
             self._strict.put(upload.station, True)
         on_the_way = set(upload.window.outstanding - {seq})
-        self._end(upload, EndedUpload(upload.station, seq, upload.last, result, on_the_way))
+        # For item 0, a station that has begun another upload would give that one's item.
+        question = upload.request(seq) if seq > 0 else None
+        self._end(upload, EndedUpload(upload.station, seq, upload.last, result, on_the_way, question, self._now()))
 
     def _end(self, upload: PlanUpload, ended: EndedUpload) -> None:
         self._upload = None

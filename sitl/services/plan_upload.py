@@ -1,7 +1,6 @@
 """One upload that is running: the items so far, and the messages that ask for the rest."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
@@ -93,18 +92,18 @@ class PlanUpload:
 
     def requests(self) -> list[Message]:
         """Ask for what an item that has come makes room for."""
-        return [self._request(seq) for seq in self.window.requests()]
+        return [self.request(seq) for seq in self.window.requests()]
 
     def overdue(self) -> list[Message]:
         """Ask again for what is overdue."""
         seqs = self.window.requests()
         if seqs and (not self._heard or self._now() - self.window.progress_at_s >= _OTHER_KIND_S):
             self._old_requests = not self._old_requests
-        return [self._request(seq) for seq in seqs]
+        return [self.request(seq) for seq in seqs]
 
     def ask_again(self) -> list[Message]:
         """Tell the station once more what is expected of it."""
-        return [self._request(seq) for seq in self.window.ask_again()]
+        return [self.request(seq) for seq in self.window.ask_again()]
 
     def refuse_old_requests(self) -> list[Message]:
         """The station knows no MISSION_REQUEST (MAVSDK answers it UNSUPPORTED): use the other kind."""
@@ -113,36 +112,11 @@ class PlanUpload:
         self._old_requests = False
         return self.ask_again()
 
-    def _request(self, seq: int) -> Message:
+    def request(self, seq: int) -> Message:
+        """What asks for one item."""
         kind = (
             mavlink.MAVLink_mission_request_message
             if self._old_requests
             else mavlink.MAVLink_mission_request_int_message
         )
         return kind(self.station.sysid, self.station.compid, seq, int(self.plan))
-
-
-@dataclass
-class EndedUpload:
-    """How an upload ended, for the station that has not heard it: its MISSION_ACK may have been lost.
-
-    Attributes:
-        station: who uploaded.
-        seq: the item that decided it.
-        last: the last item of the upload.
-        result: the MAV_MISSION_RESULT.
-        on_the_way: items asked for that had not come; their first arrival says nothing of what the station knows.
-    """
-
-    station: Station
-    seq: int
-    last: int
-    result: int
-    on_the_way: set[int] = field(default_factory=set)
-
-    def answers(self, seq: int) -> bool:
-        """Whether an item that comes now is to be answered with the result."""
-        if seq in self.on_the_way:
-            self.on_the_way.remove(seq)
-            return False
-        return seq == self.seq or self.result != mavlink.MAV_MISSION_ACCEPTED

@@ -1,7 +1,6 @@
 """Other people's stations, and endpoints' faces for them to talk to."""
 
 import contextlib
-import random
 import selectors
 import socket
 import threading
@@ -34,14 +33,13 @@ def mavproxy(tmp_path: Path) -> Iterator[MakeMavProxy]:
 
 
 class LossyRelay:
-    """Carries datagrams between one station and one endpoint, and drops some both ways, as a seed says.
+    """Carries datagrams between one station and one endpoint, and drops those of both ways that it is told to.
 
     The station talks to `port`; what it says leaves for the endpoint from another socket.
     """
 
-    def __init__(self, endpoint_port: int, loss: float, seed: int) -> None:
-        self._random = random.Random(seed)
-        self._loss = loss
+    def __init__(self, endpoint_port: int, lost: Callable[[bytes], bool]) -> None:
+        self._lost = lost
         self._near = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._near.bind((LOOPBACK, 0))
         self._far = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -71,25 +69,25 @@ class LossyRelay:
                     with contextlib.suppress(ConnectionRefusedError):
                         if key.fileobj is self._near:
                             data, station = self._near.recvfrom(65536)
-                            if self._survives():
+                            if self._survives(data):
                                 self._far.send(data)
                         else:
                             data = self._far.recv(65536)
-                            if station is not None and self._survives():
+                            if station is not None and self._survives(data):
                                 self._near.sendto(data, station)
 
-    def _survives(self) -> bool:
-        lost = self._random.random() < self._loss
+    def _survives(self, data: bytes) -> bool:
+        lost = self._lost(data)
         self.n_dropped += lost
         return not lost
 
 
 @pytest.fixture
 def relay() -> Iterator[MakeRelay]:
-    """Lossy relays to an endpoint's UDP port."""
+    """Lossy relays to an endpoint's UDP port; told what is lost of each datagram's bytes."""
     with contextlib.ExitStack() as stack:
 
-        def make(endpoint_port: int, *, loss: float, seed: int) -> LossyRelay:
-            return stack.enter_context(contextlib.closing(LossyRelay(endpoint_port, loss, seed)))
+        def make(endpoint_port: int, lost: Callable[[bytes], bool]) -> LossyRelay:
+            return stack.enter_context(contextlib.closing(LossyRelay(endpoint_port, lost)))
 
         yield make

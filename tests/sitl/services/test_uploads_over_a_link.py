@@ -67,18 +67,36 @@ class Patient(AnyOrder):
 
 
 class LikeMavsdk(AnyOrder):
-    """Ignores a request ahead of what it expects, goes back to one behind but not often, must end with the last."""
+    """Ignores a request ahead of what it expects, goes back to one behind but not often, must end with the last; waits
+    for its MISSION_ACK and does nothing for it but give what it is asked for."""
 
+    patience_s = 0.5
+    most_tries = 5
+    gives_up = -1
     expected = 0
-    retries = 0
+    tries = 0
 
     def on_request(self, seq: int, now_s: float) -> None:
-        if seq <= self.expected:
-            self.retries = 0 if seq == self.expected else self.retries
-            assert self.retries < 5
-            self.retries += 1
-            self.expected = seq + 1
-            self.give(seq, now_s)
+        if seq > self.expected:
+            return
+        if seq == self.expected:
+            self.tries = 0
+        elif self.tries >= self.most_tries:
+            self.results.append(self.gives_up)
+            return
+        self.tries += 1
+        self.expected = seq + 1
+        self.give(seq, now_s)
+
+    def on_time(self, now_s: float) -> None:
+        if now_s - self.spoke_at_s < self.patience_s and now_s > 0.0:
+            return
+        if self.tries >= self.most_tries:
+            self.results.append(self.gives_up)
+        self.tries += 1
+        self.spoke_at_s = now_s
+        if not self.asked:
+            self.count(now_s)
 
     def on_message(self, message: Any, now_s: float) -> None:
         super().on_message(message, now_s)
