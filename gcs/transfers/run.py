@@ -29,9 +29,17 @@ async def run(vehicle: VehicleLink, make: "Make[Result]") -> Result:
     over = loop.create_future()
     timer: asyncio.TimerHandle
 
+    def fail(error: Exception) -> None:
+        """Let the caller have it: asyncio and the fleet would only log it, and he would wait for ever."""
+        if not over.done():
+            over.set_exception(error)
+
     def on_message(message: Message) -> None:
-        transfer.on_message(message)
-        look()
+        try:
+            transfer.on_message(message)
+            look()
+        except Exception as error:
+            fail(error)
 
     def look() -> None:
         """See whether it is over, or due earlier than the timer thinks."""
@@ -46,9 +54,12 @@ async def run(vehicle: VehicleLink, make: "Make[Result]") -> Result:
 
     def on_timer() -> None:
         nonlocal timer
-        transfer.on_tick()
-        timer = loop.call_at(transfer.deadline_s, on_timer)
-        look()
+        try:
+            transfer.on_tick()
+            timer = loop.call_at(transfer.deadline_s, on_timer)
+            look()
+        except Exception as error:
+            fail(error)
 
     timer = loop.call_at(transfer.deadline_s, on_timer)
     try:
