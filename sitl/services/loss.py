@@ -37,8 +37,9 @@ class Loss:
 def learn(round_trip: RoundTrip, loss: Loss, took_s: float, since_first_s: float | None = None) -> bool:
     """Learn from an answer how long answers take and how much is lost.
 
-    An answer that comes sooner after a repeat than any could is one to the question before: that was not lost, the
-    link is slower than was thought. Before anything is known, an answer to a repeat tells nothing.
+    An answer that comes sooner after a repeat than any ever has is one to the question before: that was not lost, the
+    link is slower than was thought. Before anything is known, an answer to a repeat tells nothing. (The shortest round
+    trip judges, not the smoothed one: what is too long would find itself confirmed by each repeat.)
 
     Args:
         round_trip, loss: what is known.
@@ -54,7 +55,7 @@ def learn(round_trip: RoundTrip, loss: Loss, took_s: float, since_first_s: float
         return True
     if round_trip.smoothed_s is None:
         return False
-    early = took_s < round_trip.smoothed_s / 2
+    early = took_s < round_trip.least_s / 2
     if early:
         round_trip.measure(since_first_s)
     loss.measure(lost=not early)

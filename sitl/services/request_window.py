@@ -209,9 +209,8 @@ class RequestWindow:
 
     def _hold(self, seq: int, request: _Request | None) -> None:
         """Note an item that was wanted, the progress that it is, and what it tells of the station."""
-        if request is not None:
-            if seq not in self._asked_before and self._learn(request):
-                self._answered_serial = max(self._answered_serial, request.serial)
+        if request is not None and seq not in self._asked_before and self._learn(request):
+            self._answered_serial = max(self._answered_serial, request.serial)
         if self._round_trip.smoothed_s is not None:
             self._stalls = 0
         self.progress_at_s = self._now()
@@ -230,9 +229,16 @@ class RequestWindow:
 
     def _learn(self, request: _Request) -> bool:
         """Learn what an answer tells; whether it is one to the newest request for its item."""
-        now_s = self._now()
-        since_first_s = now_s - request.first_at_s if request.repeated else None
-        return learn(self._round_trip, self._loss, now_s - request.at_s, since_first_s)
+        took_s, since_first_s = self._now() - request.at_s, self._now() - request.first_at_s
+        if self.order is Order.ANY:
+            return learn(self._round_trip, self._loss, took_s, since_first_s if request.repeated else None)
+        # A strict station repeats items unasked, and gives up when it is asked too often: patience errs on its side.
+        known_s = self._round_trip.smoothed_s
+        if not request.repeated:
+            self._round_trip.measure(took_s)
+        elif known_s is not None and took_s < known_s / 2:
+            self._round_trip.measure(since_first_s)
+        return False
 
     def _open(self) -> None:
         """The station has answered out of order."""
