@@ -176,20 +176,25 @@ class Fleet:
 
     def _on_bytes(self, link: Link, data: bytes, peer: Peer) -> None:
         channel = self._channels.get((link, peer)) or self._stranger(link, peer)
-        vehicles, routes, own_signing = self.vehicles, self._routes, self._signing
-        for message in channel.codec.feed(data):
-            sysid = message.get_srcSystem()
-            vehicle = vehicles.get(sysid)
-            signing = own_signing if vehicle is None else vehicle.signing
-            verdict = signing.judge(message.get_msgbuf())
-            if verdict is not Verdict.GOOD:
-                self._rejections.count(sysid, verdict)
-                continue
-            channel.heard_at_s = time.monotonic()
-            if vehicle is None or routes[sysid].used is not channel or vehicle.compid != message.get_srcComponent():
-                vehicle = self._introduce(message, channel)
-            if vehicle is not None:
-                vehicle.on_message(message)
+        with channel.gathering():
+            for message in channel.codec.feed(data):
+                self._on_message(message, channel)
+
+    def _on_message(self, message: Message, channel: Channel) -> None:
+        """Take one message that has come over a channel, if it may have an effect."""
+        sysid = message.get_srcSystem()
+        vehicle = self.vehicles.get(sysid)
+        signing = self._signing if vehicle is None else vehicle.signing
+        verdict = signing.judge(message.get_msgbuf())
+        if verdict is not Verdict.GOOD:
+            self._rejections.count(sysid, verdict)
+            return
+        channel.heard_at_s = time.monotonic()
+        known = vehicle is not None and vehicle.compid == message.get_srcComponent()
+        if not known or self._routes[sysid].used is not channel:
+            vehicle = self._introduce(message, channel)
+        if vehicle is not None:
+            vehicle.on_message(message)
 
     def _stranger(self, link: Link, peer: Peer) -> Channel:
         """The channel of a peer from which no vehicle has been heard; those that came first are forgotten first."""

@@ -16,6 +16,9 @@ def as_float32(value: float) -> float:
         return float("inf") if value > 0 else float("-inf")
 
 
+_FLOAT_NAMES = ("param1", "param2", "param3", "param4", "alt_m")
+_FLOATS = struct.Struct("<5f")
+
 _PLAIN_FRAMES = {
     int(Frame.GLOBAL_INT): int(Frame.GLOBAL),
     int(Frame.GLOBAL_RELATIVE_ALT_INT): int(Frame.GLOBAL_RELATIVE_ALT),
@@ -50,11 +53,15 @@ class MissionItem:
     autocontinue: bool = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "command", int(self.command))
-        object.__setattr__(self, "frame", _PLAIN_FRAMES.get(self.frame, int(self.frame)))
-        for name in ("param1", "param2", "param3", "param4", "alt_m"):
-            value = as_float32(getattr(self, name))
-            object.__setattr__(self, name, math.nan if math.isnan(value) else value)
+        exact = (self.param1, self.param2, self.param3, self.param4, self.alt_m)
+        try:
+            rounded = _FLOATS.unpack(_FLOATS.pack(*exact))  # all at once, since items come by the hundred
+        except OverflowError:
+            rounded = tuple(map(as_float32, exact))
+        if math.isnan(sum(rounded)):
+            rounded = tuple(math.nan if math.isnan(value) else value for value in rounded)
+        frame = _PLAIN_FRAMES.get(self.frame, int(self.frame))
+        self.__dict__.update(zip(_FLOAT_NAMES, rounded, strict=True), command=int(self.command), frame=frame)
 
     @property
     def params(self) -> tuple[float, float, float, float]:

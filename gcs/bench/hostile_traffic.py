@@ -26,7 +26,7 @@ def hostile_traffic(seed: int, target: tuple[int, int], sysids: range) -> Iterat
     """
     rng = random.Random(seed)
     kinds = [kind for kind in KINDS.values() if kind.name != _LEFT_OUT]
-    aimed = [(kind, _offsets(kind)) for kind in kinds if kind.has("target_system")]
+    aimed = [(kind, _offsets(kind)) for kind in kinds if "target_system" in kind.names]
     past = [b""]
     while True:
         if rng.random() < 0.5:

@@ -11,6 +11,7 @@ from pathlib import Path
 from gcs.bench.fuzz import fuzz_endpoint, fuzz_station
 from gcs.bench.killed_transfers import measure_kills
 from gcs.bench.lossy_transfers import measure_transfers
+from gcs.bench.relayed_transfers import measure_relayed
 
 PIECES = 1_000_000
 SEED = 1
@@ -18,6 +19,7 @@ MOST_GROWN_MB = 20.0
 LOSSES = (0.0, 0.1, 0.25, 0.4)
 UPLOADS = 100
 ITEMS_OF_KILLED = 8
+RELAYED_LOSS = 0.25
 
 
 def soak(out: Path) -> int:
@@ -27,14 +29,15 @@ def soak(out: Path) -> int:
         running = {name: workers.submit(fuzz, PIECES, SEED) for name, fuzz in ends.items()}
         transfers = [asdict(measured) for measured in workers.map(measure_transfers, LOSSES, [UPLOADS] * len(LOSSES))]
         fuzzed = {name: asdict(future.result()) for name, future in running.items()}
+    relayed = asdict(measure_relayed(RELAYED_LOSS, UPLOADS))  # by itself: it takes wall time
     kills = {who: asdict(kills) for who, kills in measure_kills(ITEMS_OF_KILLED).items()}
-    figures = {**fuzzed, "transfers": transfers, "kills": kills}
+    figures = {**fuzzed, "transfers": transfers, "relayed": relayed, "kills": kills}
     out.mkdir(parents=True, exist_ok=True)
     text = json.dumps(figures, indent=1)
     (out / "soak.json").write_text(text + "\n", encoding="utf-8")
     print(text)
     grown = any(end["grown_mb"] > MOST_GROWN_MB for end in fuzzed.values())
-    failed = any(measured["failed"] for measured in transfers)
+    failed = any(measured["failed"] for measured in [*transfers, relayed])
     return int(grown or failed or any(killed["neither"] for killed in kills.values()))
 
 

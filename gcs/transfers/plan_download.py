@@ -1,7 +1,7 @@
 """Downloading a plan: the station's side of the MAVLink mission protocol."""
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
@@ -11,22 +11,20 @@ from gcs.transfers.errors import TransferError
 from gcs.transfers.plan_transfer import STARTS, PlanTransfer
 from missions.mission import MissionItem
 from missions.plan_type import PlanType
+from sitl.services.loss import learn
 from sitl.services.mission_items import decode_item
 from sitl.services.opaque_id import received_opaque_id
 from sitl.services.peer import Message
+from sitl.services.request_window import UNMEASURED
 
-FIRST_WINDOW = 16
-LARGEST_WINDOW = 32
-"""Requests outstanding at a time: few at first, one more for each that is answered."""
+WINDOW = 32
+"""Requests on their way, copies included; the items that answer them are 1.6 kB, 0.3 s of a radio of 57600 baud."""
 
 _BUSY_S = 10.0
 """A vehicle that denies a download while an upload runs is asked again for so long."""
 
 _TRIES_AT_ONE_PACE = 4
 """What is lost on a radio is no sign of a queue: repeats slow down late."""
-
-_COPIES, _LAST_COPIES = 2, 3
-"""A repeat is sent so often at once, and when nothing else is left to ask for: cheaper than another round trip."""
 
 _LATER_ANSWERS = 3
 """A request is lost once one that was sent so many later has been answered."""
@@ -44,11 +42,20 @@ _THERE_S = 5.0
 
 @dataclass
 class _Request:
-    """A request that is outstanding: when it was sent last, as the how manyth of all, and how often before."""
+    """A request that is outstanding.
 
+    Attributes:
+        first_at_s, sent_at_s: when it was sent first, and last.
+        serial: as the how manyth of all that was.
+        tries: how often it had been sent before.
+        copies: how often it was sent at once.
+    """
+
+    first_at_s: float
     sent_at_s: float
     serial: int
-    tries: int = 0
+    tries: int
+    copies: int
 
 
 class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
@@ -76,7 +83,7 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         super().__init__(plan_type, sysid, compid, send, now, known)
         self._strict = self._known.strict
         self._plan: tuple[int, int] | None = None  # count and opaque id
-        self._window = FIRST_WINDOW
+        self._window = WINDOW
         self._items: dict[int, MissionItem] = {}
         self._pending: deque[int] = deque()
         self._requests: dict[int, _Request] = {}  # in the order in which they were sent
@@ -108,7 +115,7 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         self._items = {}
         self._requests = {}
         self._pending = deque(range(plan[0]))
-        self._window = 1 if self._strict else FIRST_WINDOW
+        self._window = 1 if self._strict else WINDOW
         self._go_on()
 
     def _take_item(self, message: Message) -> None:
@@ -118,19 +125,21 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         request = self._requests.pop(seq, None)
         if request is None:
             self._pending.remove(seq)
-        elif request.tries == 0:
-            self._known.round_trip.measure(self._now() - request.sent_at_s)
-        if not self._strict:
-            self._window = min(LARGEST_WINDOW, self._window + 1)
-        if request is not None:
-            self._repeat_overtaken(request.serial)
+        else:
+            now_s = self._now()
+            since_first_s = now_s - request.first_at_s if request.tries else None
+            if learn(self._known.round_trip, self._known.loss, now_s - request.sent_at_s, since_first_s):
+                self._request(self._overtaken(request.serial))
         self._go_on()
 
-    def _repeat_overtaken(self, answered: int) -> None:
-        """Send again what was sent long enough before a request that has been answered."""
-        overtaken = [seq for seq, other in self._requests.items() if other.serial <= answered - _LATER_ANSWERS]
-        for seq in overtaken:
-            self._request_again(seq)
+    def _overtaken(self, answered: int) -> list[int]:
+        """What was sent long enough before a request that has been answered."""
+        lost = []
+        for seq, request in self._requests.items():
+            if request.serial > answered - _LATER_ANSWERS:
+                break
+            lost.append(seq)
+        return lost
 
     def _take_error(self, result: int) -> None:
         out_of_order = result in (mavlink.MAV_MISSION_INVALID_SEQUENCE, mavlink.MAV_MISSION_ERROR)
@@ -150,9 +159,9 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
             self._send(mavlink.MAVLink_mission_ack_message(*self._target, accepted, self._plan_type))
             self.outcome = tuple(self._items[seq] for seq in range(len(self._items)))
             return
-        while self._pending and len(self._requests) < self._window:
-            self._request(self._pending.popleft())
-        self.deadline_s = min(map(self._due_at_s, self._requests.values()))
+        room = max(0, min(self._room(), len(self._pending)))
+        self._request([self._pending.popleft() for _ in range(room)])
+        self.deadline_s = next(iter(self._requests.values())).sent_at_s + self._timeout_s(0)  # or later: see _repeat
 
     def _repeat(self) -> None:
         if self._plan is None:
@@ -169,8 +178,7 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
                 return
         elif tries >= _UNANSWERED_TRIES and quiet_s >= _UNANSWERED_TRIES * self._timeout_s(0):
             self._narrow(lowest)
-        for seq in [seq for seq, request in self._requests.items() if self._due_at_s(request) <= now_s]:
-            self._request_again(seq)
+        self._request([seq for seq, request in self._requests.items() if self._due_at_s(request) <= now_s])
         self.deadline_s = min(map(self._due_at_s, self._requests.values()))
 
     def _due_at_s(self, request: _Request) -> float:
@@ -185,16 +193,26 @@ class PlanDownload(PlanTransfer[tuple[MissionItem, ...]]):
         self._pending.extendleft(reversed(later))
         self._requests = {lowest: replace(self._requests[lowest], tries=0)}
 
-    def _request(self, seq: int, tries: int = 0) -> None:
-        self._serial += 1
-        self._requests[seq] = _Request(self._now(), self._serial, tries)
-        message = mavlink.MAVLink_mission_request_int_message(*self._target, seq, self._plan_type)
-        copies = _COPIES if self._pending else _LAST_COPIES
-        for _ in range(copies if tries > 0 else 1):
-            self._send(message)
+    def _room(self) -> int:
+        """How many more requests may be on their way."""
+        unmeasured = self._known.round_trip.smoothed_s is None
+        return (min(self._window, UNMEASURED) if unmeasured else self._window) - sum(
+            request.copies for request in self._requests.values()
+        )
 
-    def _request_again(self, seq: int) -> None:
-        self._request(seq, self._requests.pop(seq).tries + 1)
+    def _request(self, seqs: Sequence[int]) -> None:
+        """Ask for items, again or for the first time; on a link that loses, in copies that there is room for."""
+        if not seqs:
+            return
+        before = [self._requests.pop(seq, None) for seq in seqs]
+        copies = max(1, min(self._known.loss.copies, self._room() // len(seqs)))
+        now_s = self._now()
+        for seq, earlier in zip(seqs, before, strict=True):
+            self._serial += 1
+            first_at_s, tries = (now_s, 0) if earlier is None else (earlier.first_at_s, earlier.tries + 1)
+            self._requests[seq] = _Request(first_at_s, now_s, self._serial, tries, copies)
+        for seq in [*seqs] * copies:
+            self._send(mavlink.MAVLink_mission_request_int_message(*self._target, seq, self._plan_type))
 
     def _give_up(self) -> "tuple[MissionItem, ...] | TransferError":
         return self._stopped()

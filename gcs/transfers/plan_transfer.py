@@ -80,6 +80,16 @@ class PlanTransfer(Transfer[Result]):
     def _begin(self) -> None:
         """Forget what there is so far, and send the first message."""
 
+    def _ask(self, message: Message) -> None:
+        super()._ask(message)
+        for _ in range(1, self._known.loss.copies):
+            self._send(message)
+
+    def _timeout_s(self, tries: int) -> float:
+        # What a transfer begins with is short, and harmless however often it comes.
+        known = self._known.round_trip.smoothed_s is not None
+        return super()._timeout_s(tries) / (1.0 if known else 2.0)
+
     @abstractmethod
     def _take_plan_message(self, kind: str, message: Message) -> None:
         """Act on one MISSION_* message of this type of plan."""

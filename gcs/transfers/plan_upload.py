@@ -1,6 +1,5 @@
 """Uploading a plan: the station's side of the MAVLink mission protocol."""
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
@@ -62,8 +61,6 @@ class PlanUpload(PlanTransfer[Uploaded]):
         self._asked: set[int] = set()
         self._unsent = set(range(len(self._items)))
         self._last_asked = 0
-        self._asks_ahead = False
-        self._first_answers_s = [math.inf, math.inf]  # of COUNT and of the first item, where each was sent once
 
     def _begin(self) -> None:
         self._asked.clear()
@@ -79,25 +76,17 @@ class PlanUpload(PlanTransfer[Uploaded]):
 
     def _take_request(self, message: Message) -> None:
         seq = self._last_asked = message.seq
-        self._asks_ahead = self._asks_ahead or seq > len(self._asked)
+        self._known.loss.measure(lost=seq in self._asked)
         if seq not in self._asked:
-            self._measure_first()
+            if not self._asked:
+                self._measure()
             self._progress()
             self._asked.add(seq)
             self._sent_at_s = self._now()
             self._set_deadline()
         else:
             self._tries = max(1, self._tries)  # what is sent again tells nothing of the round trip
-            if self._asks_ahead:  # a message more is cheaper than a round trip more
-                self._send_item(seq)
         self._send_item(seq)
-
-    def _measure_first(self) -> None:
-        """Take the quicker of the first two answers for the round trip: the vehicle too repeats what was lost."""
-        if len(self._asked) < len(self._first_answers_s) and self._tries == 0:
-            self._first_answers_s[len(self._asked)] = self._now() - self._sent_at_s
-        if len(self._asked) == 1 and math.isfinite(quicker_s := min(self._first_answers_s)):
-            self._known.round_trip.measure(quicker_s)
 
     def _take_ack(self, result: int) -> None:
         if result == mavlink.MAV_MISSION_INVALID_SEQUENCE:

@@ -28,7 +28,8 @@ def moving_average(knots: FloatArray, values: FloatArray, window: float) -> Floa
     """
     slopes = np.diff(values) / np.diff(knots)
     inner = knots[1:-1]
-    starts = np.unique(np.concatenate([[knots[0] - window], inner - window / 2, inner + window / 2]))
+    starts = np.sort(np.concatenate([[knots[0] - window], inner - window / 2, inner + window / 2]))
+    starts = starts[np.append(True, np.diff(starts) > 0.0)]  # np.unique's first use would import numpy.ma: 20 ms
 
     def linear(u: FloatArray) -> FloatArray:
         index = np.clip(np.searchsorted(knots, u, side="right") - 1, 0, len(slopes) - 1)

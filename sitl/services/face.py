@@ -13,6 +13,7 @@ from sitl.services.file_transfer import ftp_refusal
 from sitl.services.heartbeat import heartbeat
 from sitl.services.mission_server import MissionServer
 from sitl.services.news import News
+from sitl.services.outbox import Outbox
 from sitl.services.parameters import ParameterServer
 from sitl.services.peer import Message, Peer
 from sitl.services.signing import Signing, Verdict
@@ -35,7 +36,7 @@ class MavlinkFace:
     """Composes one vehicle's services. May be used from several threads: the vehicle's lock orders them.
 
     Telemetry, events and STATUSTEXT go to every peer, answers to the peer that asked. What one call has to say to a
-    peer leaves in one piece (one datagram).
+    peer leaves together.
 
     Args:
         vehicle: the vehicle behind it.
@@ -65,7 +66,7 @@ class MavlinkFace:
         self._epoch_s = time.time() if epoch_s is None else epoch_s
         self._sysid = vehicle.sysid
         self._codecs: dict[Peer, Codec] = {}
-        self._outbox: dict[Peer, bytearray] = {}
+        self._outboxes: dict[Peer, Outbox] = {}
         self._greeted: set[Peer] = set()
         self._heartbeat_at_s = self._news_at_s = now()
         self._text_id = 0
@@ -89,12 +90,14 @@ class MavlinkFace:
         with self._vehicle.lock:
             if peer not in self._codecs:
                 self._codecs[peer] = Codec(self._sysid, _AUTOPILOT, link_id=self._links_seen % 256)
+                self._outboxes[peer] = Outbox(lambda data: self._send_bytes(peer, data))
                 self._links_seen += 1
 
     def remove_peer(self, peer: Peer) -> None:
         """`peer` is gone."""
         with self._vehicle.lock:
             self._codecs.pop(peer, None)
+            self._outboxes.pop(peer, None)
             self._greeted.discard(peer)
             self._missions.forget(peer)
             self._parameters.forget(peer)
@@ -222,9 +225,8 @@ class MavlinkFace:
             self._reply(message, peer)
 
     def _reply(self, message: Message, peer: Peer) -> None:
-        self._outbox.setdefault(peer, bytearray()).extend(self._codecs[peer].pack(message, self._signing))
+        self._outboxes[peer].put(self._codecs[peer].pack(message, self._signing))
 
     def _flush(self) -> None:
-        outbox, self._outbox = self._outbox, {}
-        for peer, frames in outbox.items():
-            self._send_bytes(peer, bytes(frames))
+        for outbox in self._outboxes.values():
+            outbox.flush()

@@ -202,7 +202,7 @@ class PlanServer:
             self._now,
             strict=self._strict.get(station) is not None,
             old_requests=earlier is not None and earlier.unheard_requests is False,
-            again=earlier is not None,
+            asked_before=frozenset() if earlier is None else earlier.window.asked,
         )
         self._tell(self._upload, self._upload.requests())
 
@@ -249,7 +249,8 @@ class PlanServer:
     def _end(self, upload: PlanUpload, ended: EndedUpload) -> None:
         self._upload = None
         self._ended = ended
-        self._ack(upload.station, ended.result)
+        for _ in range(upload.window.copies):
+            self._ack(upload.station, ended.result)
 
     def _take_stray(self, seq: int, station: Station) -> None:
         """An item without an upload: of one that has ended, or of none."""

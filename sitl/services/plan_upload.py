@@ -1,6 +1,6 @@
 """One upload that is running: the items so far, and the messages that ask for the rest."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Set
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
@@ -30,7 +30,7 @@ class PlanUpload:
         now: wall time in seconds; only differences matter.
         strict: whether the station is known to answer in strict order only.
         old_requests: whether to begin with MISSION_REQUEST.
-        again: whether the station has begun anew.
+        asked_before: items that it has been asked for in an upload that it has begun anew.
     """
 
     def __init__(
@@ -44,12 +44,12 @@ class PlanUpload:
         *,
         strict: bool,
         old_requests: bool = False,
-        again: bool = False,
+        asked_before: Set[int] = frozenset(),
     ) -> None:
         self.plan = plan
         self.station = station
         self.last = last
-        self.window = RequestWindow(first, last, now, strict=strict, again=again)
+        self.window = RequestWindow(first, last, now, strict=strict, asked_before=asked_before)
         self._now = now
         self._items = list(base)
         self._old_requests = old_requests

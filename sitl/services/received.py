@@ -29,6 +29,8 @@ class Kind:
         checksum_extra: the byte that goes into the checksum behind the frame.
         packed: the payload at full length.
         fields: (name, place among the unpacked values, number of values), in the order of the wire.
+        names: of the fields.
+        plain: whether each field is one number.
         time_at: where in the payload time_boot_ms is; None when it has none.
     """
 
@@ -37,16 +39,16 @@ class Kind:
     checksum_extra: bytes
     packed: struct.Struct
     fields: tuple[tuple[str, int, int], ...]
+    names: tuple[str, ...]
+    plain: bool
     time_at: int | None
-
-    def has(self, field: str) -> bool:
-        """Whether there is a field of that name."""
-        return any(name == field for name, _, _ in self.fields)
 
     def decode(self, payload: bytes) -> dict[str, object]:
         """The fields of a payload, of which trailing zeros may be missing and unknown extensions may follow."""
         size = self.packed.size
         values = self.packed.unpack(payload[:size] if len(payload) >= size else payload.ljust(size, b"\0"))
+        if self.plain:
+            return dict(zip(self.names, values, strict=True))
         return {name: _field(values, at, count) for name, at, count in self.fields}
 
 
@@ -66,7 +68,16 @@ def _kind(message: Message) -> Kind:
             time_at = struct.calcsize(before)
         fields.append((name, place, count))
         place += count
-    return Kind(message.id, message.msgname, bytes([message.crc_extra]), message.unpacker, tuple(fields), time_at)
+    return Kind(
+        message_id=message.id,
+        name=message.msgname,
+        checksum_extra=bytes([message.crc_extra]),
+        packed=message.unpacker,
+        fields=tuple(fields),
+        names=tuple(message.ordered_fieldnames),
+        plain=len(fields) == place and b"s" not in message.unpacker.format.encode(),
+        time_at=time_at,
+    )
 
 
 KINDS: dict[int, Kind] = {
@@ -90,7 +101,7 @@ class Received:
         self._frame = frame
 
     def __getattr__(self, name: str) -> object:
-        if name.startswith("_") or not self._kind.has(name):
+        if name.startswith("_") or name not in self._kind.names:
             raise AttributeError(f"no {name} in this message")
         self.__dict__.update(self._kind.decode(self._payload()))
         return self.__dict__[name]

@@ -1,5 +1,7 @@
 """How long to wait for an answer, from how long answers have taken."""
 
+import math
+
 INITIAL_S = 1.5
 """The MAVLink guide's default time-out, used before anything has been measured."""
 
@@ -22,16 +24,19 @@ class RoundTrip:
 
     Attributes:
         smoothed_s: the round trip; None before anything has been measured.
+        least_s: the shortest that has been measured.
     """
 
     def __init__(self, initial_s: float = INITIAL_S, longest_s: float = LONGEST_S) -> None:
         self._initial_s = initial_s
         self._longest_s = longest_s
         self.smoothed_s: float | None = None
+        self.least_s = math.inf
         self._variation_s = 0.0
 
     def measure(self, seconds: float) -> None:
         """Take one measured round trip, of a message that was sent once only."""
+        self.least_s = min(self.least_s, seconds)
         if self.smoothed_s is None:
             self.smoothed_s, self._variation_s = seconds, seconds / 2
         else:

@@ -6,7 +6,7 @@ import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.transfers.errors import TransferError
-from gcs.transfers.plan_download import FIRST_WINDOW, LARGEST_WINDOW, PlanDownload
+from gcs.transfers.plan_download import WINDOW, PlanDownload
 from missions.mission import MissionItem
 from missions.plan_type import PlanType
 from sitl.services.mission_items import item_message
@@ -76,14 +76,15 @@ def requested(scripted: Any) -> list[int]:
     return [seq for kind, seq in scripted.sent if kind == REQUEST]
 
 
-def test_the_window_opens_with_what_is_answered(scripted: Any, download: PlanDownload, make_mission: Any) -> None:
+def test_a_window_of_items_is_asked_for_at_a_time_and_none_twice(
+    scripted: Any, download: PlanDownload, make_mission: Any
+) -> None:
     vehicle = Vehicle(scripted, make_mission(200).items, strict=False)
     widths = []
     while download.outcome is None:
         vehicle.answer()
         widths.append(len(requested(scripted)))
-    assert widths[0] == FIRST_WINDOW
-    assert max(widths) == LARGEST_WINDOW
+    assert widths[0] == max(widths) == WINDOW
     assert download.outcome == make_mission(200).items
     assert vehicle.served == list(range(200))  # none twice
     assert scripted.sent == [("MISSION_ACK", mavlink.MAV_MISSION_ACCEPTED)]
