@@ -160,21 +160,26 @@ class Pilot:
 
     def observe(self) -> Correction:
         """Find the deviations from the path and schedule; returns the own one, for the neighbours."""
-        stage, flight = self.stage, self.flight
+        stage = self.stage
         self.errors, self.in_formation = None, False
         along = along_rate = 0.0
         if isinstance(stage, PathStage) and self.phase is Phase.FLYING:
-            air, velocity = flight.air, ground_velocity(flight)
-            time_s = (self.tick - stage.started_tick) * TICK_S
-            errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, flight.point, stage.tables)
-            self.flight = at_point(flight, point)
-            self.errors = errors
+            self.errors = errors = self._errors_on(stage)
             if self.commanded is None and not stage.on_final and not within(self.tick, self._frozen):
                 self.in_formation = True
                 along, along_rate = errors.along, errors.along_rate
         own = Correction(self._config.sysid, self.tick, self.tick, self.in_formation, along, along_rate)
         self._own.append(own)
         return own
+
+    def _errors_on(self, stage: PathStage) -> PathErrors:
+        """The deviations from a path and its schedule at this tick, and the place on it kept in mind."""
+        flight = self.flight
+        air, velocity = flight.air, ground_velocity(flight)
+        time_s = (self.tick - stage.started_tick) * TICK_S
+        errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, flight.point, stage.tables)
+        self.flight = at_point(flight, point)
+        return errors
 
     def hear(self, heard: Mapping[int, Correction]) -> None:
         """Take in what the neighbours say; see `Formation.corrections`. Once a tick, after `observe`."""
@@ -189,7 +194,8 @@ class Pilot:
             return
         stage, errors, aircraft = self.stage, self.errors, self._aircraft
         if isinstance(stage, PathStage):
-            assert errors is not None
+            if errors is None:  # a station has changed the mode since `observe`
+                errors = self._errors_on(stage)
             ahead = self._ahead(errors)
             wanted = path_accelerations(errors, ahead, self.flight.air.V, aircraft.airframe)
             if stage.on_final:

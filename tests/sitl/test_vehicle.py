@@ -152,6 +152,19 @@ def test_loiter_and_back_to_the_mission(make_flown: MakeFlown, straight_mission:
     assert flown.vehicle.snapshot().mission_complete
 
 
+def test_a_station_may_change_the_mode_between_the_halves_of_a_tick(
+    make_flown: MakeFlown, straight_mission: Mission
+) -> None:
+    flown = airborne(make_flown(), straight_mission)
+    flown.fly(1000)
+    for mode in (Mode.LOITER, Mode.AUTO, Mode.RTL, Mode.AUTO):
+        flown.vehicle.observe()
+        assert flown.vehicle.set_mode(mode) is None
+        flown.vehicle.advance({})
+        flown.fly(50)
+    assert flown.vehicle.airborne
+
+
 @pytest.mark.parametrize(("mode", "reason"), [(Mode.AUTO, "no mission to fly"), (Mode.LOITER, "not flying")])
 def test_modes_that_make_no_sense_on_the_ground_are_refused(make_flown: MakeFlown, mode: Mode, reason: str) -> None:
     assert make_flown().vehicle.set_mode(mode) == reason
