@@ -8,6 +8,7 @@ from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from gcs.delay_margin import delay_margin_s
 from gcs.fleet import Fleet
 from gcs.flight_record import Event, FlightRecord, Timing
 from gcs.links.udp import UdpLink
@@ -24,9 +25,6 @@ from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from planner.verify import require, verify
 from sitl.config import Arm
-from sitl.formation.graph import edges, laplacian
-from sitl.formation.law import Gains
-from sitl.formation.margin import aircraft_margin_s
 from sitl.modes import Mode
 from sitl.reports import Ended
 from sitl.services.links import LOOPBACK
@@ -135,15 +133,6 @@ async def fly(
         delay_margin_s=delay_margin_s(scenario),
         edges=tuple((tick, other, end.sysid, used) for end in ends for tick, other, used in end.edges),
     )
-
-
-def delay_margin_s(scenario: Scenario) -> float:
-    """The `aircraft` delay margin of a scenario's formation (MODEL, section 6); infinite when it has none."""
-    formation = scenario.formation
-    sysids = [vehicle.sysid for vehicle in scenario.vehicles]
-    gains = Gains(formation.k1, formation.k2, formation.k3, formation.k0)
-    matrix = laplacian(sysids, edges(formation.graph, sysids))
-    return aircraft_margin_s(matrix, gains, scenario.airframe.thrust_lag_s, TICK_S)
 
 
 def _swarm_options(plan: FormationPlan, run: RunFolder, options: FlightOptions, port: int) -> SwarmOptions:

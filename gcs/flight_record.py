@@ -18,7 +18,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Timing:
-    """How long things took: wall time, but for `flight_sim_s`.
+    """How long things took: wall time, but for `flight_sim_s`. A rehearsal starts and uploads nothing: None.
 
     Attributes:
         compile_s, plan_s: compilation, and planning without it.
@@ -30,8 +30,8 @@ class Timing:
 
     compile_s: float
     plan_s: float
-    startup_s: float
-    upload_s: float
+    startup_s: float | None
+    upload_s: float | None
     flight_wall_s: float
     flight_sim_s: float
     real_time_factor: float
@@ -42,10 +42,10 @@ class FlightRecord:
     """One flight of a plan.
 
     Attributes:
-        seed: of the plan and of the gusts.
+        seed: of the gusts, and of the plan unless a rehearsal chose another.
         delay_s: effective delay of the corrections.
         arm: how much of the formation law was on.
-        items_uploaded, items_verified: mission items by sysid: sent, and read back equal.
+        items_uploaded, items_verified: mission items by sysid: sent, and read back equal; none in a rehearsal.
         timing: how long things took.
         events: in order of time.
         lost: when a vehicle was lost, by sysid; simulated time in seconds.

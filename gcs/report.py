@@ -31,23 +31,32 @@ class Report:
     series: Series
 
 
+def report_on(scenario: Scenario, plan: FormationPlan, truths: Truths, record: FlightRecord) -> Report:
+    """Measure a flight."""
+    graph = edges(scenario.formation.graph, [uav.sysid for uav in plan.uavs])
+    metrics, series = measure(scenario, plan, truths, graph, record)
+    return Report(metrics.as_json(), shortfalls(metrics, scenario), series)
+
+
+def keep_report(run: RunFolder, scenario: Scenario, plan: FormationPlan, truths: Truths, report: Report) -> None:
+    """Write metrics.json and the figures. Raises InputError when the run's folder cannot be written to."""
+    run.write_json("metrics.json", report.metrics)
+    draw_all(scenario, plan, truths, report.series, run.figures)
+
+
 def write_report(run: RunFolder, scenario: Scenario, plan: FormationPlan, record: FlightRecord) -> Report:
-    """Measure a flight, write metrics.json and the figures.
+    """Measure a flight that endpoints have recorded, write metrics.json and the figures.
 
     Raises:
         InputError: a truth file is missing, or the run's folder cannot be written to.
     """
-    sysids = [uav.sysid for uav in plan.uavs]
-    truths = read_truths(run.truth, [sysid for sysid in sysids if sysid not in record.lost])
+    truths = read_truths(run.truth, [uav.sysid for uav in plan.uavs if uav.sysid not in record.lost])
     for sysid in record.lost:
         with contextlib.suppress(InputError):  # lost before it had recorded anything
             truths[sysid] = read_truth(run.truth / f"{sysid}.f64")
-    record = _timed_by_truth(record, truths)
-    metrics, series = measure(scenario, plan, truths, edges(scenario.formation.graph, sysids), record)
-    values = metrics.as_json()
-    run.write_json("metrics.json", values)
-    draw_all(scenario, plan, truths, series, run.figures)
-    return Report(values, shortfalls(metrics, scenario), series)
+    report = report_on(scenario, plan, truths, _timed_by_truth(record, truths))
+    keep_report(run, scenario, plan, truths, report)
+    return report
 
 
 def _timed_by_truth(record: FlightRecord, truths: Truths) -> FlightRecord:

@@ -33,6 +33,11 @@ class RunFolder:
     path: Path
 
     @property
+    def scenario(self) -> Path:
+        """The scenario's file."""
+        return self.path / "scenario.toml"
+
+    @property
     def truth(self) -> Path:
         """Folder of the endpoints' truth."""
         return self.path / "truth"
@@ -64,7 +69,7 @@ class RunFolder:
             InputError: the folder cannot be written to.
         """
         try:
-            (self.path / "scenario.toml").write_text(scenario_text, encoding="utf-8")
+            self.scenario.write_text(scenario_text, encoding="utf-8")
             if scenario.raster is not None:
                 write_local_raster(scenario.raster, self.raster)
             plan.save(self.path / "plan.json")
@@ -81,7 +86,7 @@ class RunFolder:
         Raises:
             InputError: this is no run, or its files cannot be used.
         """
-        file = self.path / "scenario.toml"
+        file = self.scenario
         try:
             text = file.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:

@@ -1,4 +1,4 @@
-"""Reading what the endpoints recorded: truth/<sysid>.f64 (MODEL, section 7)."""
+"""What the endpoints recorded, or a rehearsal in their place: truth/<sysid>.f64 (MODEL, section 7)."""
 
 import hashlib
 from collections.abc import Iterable, Mapping
@@ -41,6 +41,12 @@ def read_truth(path: Path) -> FloatArray:
     if not whole:
         raise InputError(f"{path}: no whole row of {row_bytes} bytes; the vehicle never flew, fly the run again")
     return np.frombuffer(data[:whole], dtype="<f8").reshape(-1, COLUMNS).astype(np.float64, copy=False)
+
+
+def write_truths(truths: Truths, folder: Path) -> None:
+    """Write each vehicle's truth into an existing folder. Raises OSError."""
+    for sysid, rows in truths.items():
+        (folder / f"{sysid}.f64").write_bytes(rows.astype("<f8", copy=False).tobytes())
 
 
 def trajectory_sha256(truths: Truths, last_tick: int) -> str:

@@ -82,6 +82,11 @@ class FormationPlan:
     slot_scale: tuple[float, ...] = ()
     slot_stagger: tuple[int, ...] = ()
 
+    @property
+    def missions(self) -> dict[int, Mission]:
+        """What each vehicle is told, by sysid."""
+        return {uav.sysid: uav.mission for uav in self.uavs}
+
     def references(self, scenario: Scenario) -> dict[int, Reference]:
         """The reference of each vehicle by sysid, built from its mission as an endpoint builds it."""
         airframe, forecast = scenario.airframe.airframe(), scenario.wind.forecast_m_s

@@ -11,6 +11,7 @@ from gcs.cli.fly import fly
 from gcs.cli.orders import abort, arm, disarm, mode, rtl
 from gcs.cli.params import params
 from gcs.cli.plan import plan
+from gcs.cli.rehearse import rehearse
 from gcs.cli.replay import replay
 from gcs.cli.reproduce import reproduce
 from gcs.cli.signing import signing
@@ -26,7 +27,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-ON_THIS_MACHINE = (demo, plan, sim, fly, export, replay, bench, reproduce)
+ON_THIS_MACHINE = (demo, plan, sim, fly, rehearse, export, replay, bench, reproduce)
 WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)

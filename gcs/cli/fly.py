@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from gcs.cli.errors import FELL_SHORT, exit_codes
+from gcs.cli.errors import exit_codes
 from gcs.cli.options import (
     DelayOption,
     JsonOption,
@@ -54,26 +54,13 @@ def fly_and_report(
     import asyncio
 
     from gcs.cli import output
+    from gcs.cli.flight_report import show_report, warn_of_delay
     from gcs.cli.live import LiveTable
-    from gcs.cli.tables import flight_table, formation_table
-    from gcs.flight import delay_margin_s
     from gcs.flight import fly as fly_plan
     from gcs.report import write_report
 
-    if options.arm == "full" and options.delay_s >= (margin_s := delay_margin_s(scenario)):
-        output.progress.print(f"The delay of {options.delay_s:g} s is past the formation's margin of {margin_s:.2f} s")
+    warn_of_delay(scenario, options.delay_s, options.arm)
     with LiveTable(output.progress) as live:
         record = asyncio.run(fly_plan(scenario, plan, run, options, live.announce, live.show))
     output.progress.print("Computing figures of merit, drawing")
-    report = write_report(run, scenario, plan, record)
-    if json:
-        output.print_json({"run": str(run.path), **report.metrics})
-    else:
-        output.out.print(flight_table(report.metrics))
-        output.out.print(formation_table(report.metrics))
-        for line in report.shortfalls:
-            output.out.print(f"[red]Fell short:[/red] {line}")
-        output.out.print(f"Run:     {run.path}", soft_wrap=True)
-        output.out.print(f"Figures: {run.figures}", soft_wrap=True)
-    if report.shortfalls:
-        raise SystemExit(FELL_SHORT)
+    show_report(write_report(run, scenario, plan, record), run, json)

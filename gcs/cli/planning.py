@@ -1,9 +1,12 @@
-"""Planning with a progress bar on standard error."""
+"""Planning with a progress bar on standard error, and plans made before."""
+
+from pathlib import Path
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from gcs.cli import output
-from missions.scenario import Scenario
+from gcs.run_folder import RunFolder
+from missions.scenario import Scenario, parse_scenario, read_scenario_text, scenario_folder, shipped_scenarios
 from planner.formation_plan import FormationPlan
 from planner.plan import PlanProgress
 from planner.plan import plan as search
@@ -23,3 +26,23 @@ def search_with_progress(scenario: Scenario, seed: int | None, method: str | Non
             bar.update(task, completed=sum(parts), description=f"Planning {progress.name}", best=best)
 
         return search(scenario, seed=seed, method=method, progress=show)
+
+
+def plan_of(source: str, seed: int | None) -> tuple[str, Scenario, FormationPlan]:
+    """The text of a scenario, the scenario, and its plan: that of a planned run, or one made now.
+
+    Args:
+        source: name of a scenario that ships, a scenario's file, or a run's folder.
+        seed: of the search, when there is one; None for the scenario's.
+
+    Raises:
+        InputError: there is no such thing, it cannot be used, or no plan was found.
+    """
+    if source not in shipped_scenarios() and Path(source).is_dir():
+        run = RunFolder(Path(source))
+        scenario, plan = run.read()
+        text, _ = read_scenario_text(str(run.scenario))
+        return text, scenario, plan
+    text, label = read_scenario_text(source)
+    scenario = parse_scenario(text, label, scenario_folder(source))
+    return text, scenario, search_with_progress(scenario, seed, None)

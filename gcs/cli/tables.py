@@ -95,7 +95,7 @@ def flight_table(metrics: dict[str, Any]) -> Table:
         arrival, planned = vehicle["arrival_s"], vehicle["planned_arrival_s"]
         table.add_row(
             f"{vehicle['sysid']} {vehicle['name']}",
-            f"{vehicle['items_verified']}/{vehicle['items_uploaded']}",
+            "-" if vehicle["items_uploaded"] is None else f"{vehicle['items_verified']}/{vehicle['items_uploaded']}",
             _shown(arrival, ".1f"),
             "-" if arrival is None else f"{arrival - planned:+.2f}",
             _shown(vehicle["planned_length_km"], ".2f"),
@@ -130,9 +130,9 @@ def formation_table(metrics: dict[str, Any]) -> Table:
         ("delay / margin", f"{metrics['delay_s']:g} / {_shown(formation['delay_margin_s'])} s"),
         (
             "planning / start-up / upload",
-            f"{timing['plan_s']:.1f} / {timing['startup_s']:.1f} / {timing['upload_s']:.1f} s",
+            " / ".join(_shown(timing[key], ".1f") for key in ("plan_s", "startup_s", "upload_s")) + " s",
         ),
-        ("flight, wall time", f"{timing['flight_sim_s']:.0f} s in {timing['flight_wall_s']:.1f} s"),
+        ("flight, wall time", f"{timing['flight_sim_s']:.0f} s in {timing['flight_wall_s']:.3g} s"),
         ("times real time", f"{timing['real_time_factor']:.0f}"),
         ("trajectory", (metrics["trajectory_sha256"] or "none")[:16]),
     ]

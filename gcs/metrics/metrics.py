@@ -10,12 +10,14 @@ import numpy as np
 from gcs.flight_record import Event, FlightRecord, Timing
 from gcs.metrics.arrival import Arrival, arrival
 from gcs.metrics.flight_limits import FlightLimits, flight_limits
-from gcs.metrics.formation_error import Edge
+from gcs.metrics.formation_error import Edge, formation_error
 from gcs.metrics.graph_used import GraphUsed, graph_used
+from gcs.metrics.planned import Planned, what_was_planned
 from gcs.metrics.scheduled import scheduled
-from gcs.metrics.series import Series, flight_series
+from gcs.metrics.separation import least_separation_m
+from gcs.metrics.series import Series
 from gcs.metrics.surroundings import Surroundings, airborne_row, surroundings
-from gcs.metrics.tracks import tracks
+from gcs.metrics.tracks import flown_tracks
 from gcs.truth import H, Truths, trajectory_sha256
 from missions.scenario import Scenario
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
@@ -87,7 +89,12 @@ class Metrics:
 
 
 def measure(
-    scenario: Scenario, plan: FormationPlan, truths: Truths, edges: Sequence[Edge], record: FlightRecord
+    scenario: Scenario,
+    plan: FormationPlan,
+    truths: Truths,
+    edges: Sequence[Edge],
+    record: FlightRecord,
+    planned: Planned | None = None,
 ) -> tuple[Metrics, Series]:
     """Compute the figures of merit of a flight, and what they are over time.
 
@@ -96,11 +103,19 @@ def measure(
         truths: what the endpoints recorded, by sysid (`gcs.truth.read_truths`).
         edges: of the nominal graph, pairs of sysids.
         record: what else became of the flight.
+        planned: of the plan, where it is at hand.
     """
-    references = plan.references(scenario)
+    planned = planned or what_was_planned(scenario, plan)
+    references = planned.references
     arrivals = {sysid: arrival(truth, references[sysid]) for sysid, truth in truths.items()}
-    common = tracks(references, truths)
-    series = flight_series(common, edges, references, {sysid: end.time_s for sysid, end in arrivals.items()})
+    common = flown_tracks(planned.tracks, truths)
+    series = Series(
+        tracks=common,
+        error=formation_error(common, edges),
+        separation_m=least_separation_m(common.flown_m),
+        references=references,
+        arrivals_s={sysid: end.time_s for sysid, end in arrivals.items()},
+    )
     around = [surroundings(positions, scenario) for positions in common.flown_m]
     late = [end.time_s - references[i].duration_s for i, end in arrivals.items() if end.time_s is not None]
     arrived = [Event(end.time_s, i, "arrived") for i, end in arrivals.items() if end.time_s is not None]

@@ -39,7 +39,7 @@ def test_a_target_inside_a_mountain(tmp_path: Path) -> None:
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("command", ["fly", "export"])
+@pytest.mark.parametrize("command", ["fly", "export", "rehearse"])
 def test_a_folder_that_is_no_run(command: str, tmp_path: Path) -> None:
     options = ["--format", "plan"] if command == "export" else []
     assert "scenario.toml: No such file or directory; is" in complaint(command, tmp_path, *options)

@@ -16,12 +16,12 @@ from pymavlink import mavutil
 
 from gcs.flight_record import FlightRecord, Timing
 from gcs.metrics import measure
-from gcs.metrics.arrival import arrival
+from gcs.rehearsal import RehearsalOptions, rehearse_plan
+from gcs.report import report_on
 from gcs.run_folder import RunFolder
-from gcs.truth import read_truths, trajectory_sha256
+from gcs.truth import read_truths
+from sitl.config import Arm
 from sitl.formation.graph import edges
-from sitl.rehearsal import rehearse
-from sitl.swarm import SwarmOptions, vehicle_configs
 
 SKEIN = (sys.executable, "-m", "gcs.main")
 VEHICLE_KEYS = {
@@ -162,18 +162,34 @@ def test_the_same_again_and_with_another_seed_or_delay(flown: Flown, short_scena
         hashes[name] = json.loads(result.stdout)["trajectory_sha256"]
     assert hashes["same"] == first["trajectory_sha256"]
     assert len({first["trajectory_sha256"], hashes["seed"], hashes["delay"]}) == 3
-    for name, flown_sha256 in hashes.items():
-        assert rehearsed_sha256(tmp_path / name) == flown_sha256, "the rehearsal flies the same, bit for bit"
+    again = rehearsed(short_scenario, "--seed", 2, "--out", tmp_path / "rehearsed")
+    assert again["trajectory_sha256"] == hashes["seed"]
+    assert_same_flight(again, json.loads((tmp_path / "seed" / "metrics.json").read_text()))
+    for file in ("1.f64", "2.f64", "3.f64"):
+        ours, theirs = ((tmp_path / run / "truth" / file).read_bytes() for run in ("rehearsed", "seed"))
+        shorter = min(len(ours), len(theirs))
+        assert ours[:shorter] == theirs[:shorter]
+    assert rehearsed(tmp_path / "same", "--delay", 0.24)["trajectory_sha256"] == hashes["delay"]
 
 
-def rehearsed_sha256(run: Path) -> str:
-    """Of the rehearsal of a run that was flown."""
-    scenario, plan = RunFolder(run).read()
-    metrics = json.loads((run / "metrics.json").read_text())
-    options = SwarmOptions(seed=plan.seed, delay_s=metrics["delay_s"], arm=metrics["arm"])
-    flown = rehearse(vehicle_configs(scenario, options), {uav.sysid: uav.mission for uav in plan.uavs})
-    ends = [arrival(flown.truth[i], reference).tick for i, reference in plan.references(scenario).items()]
-    return trajectory_sha256(flown.truth, max(tick for tick in ends if tick is not None))
+def rehearsed(*arguments: object) -> dict[str, Any]:
+    """What the command that flies in one process prints."""
+    result = skein("rehearse", *arguments, "--json")
+    assert result.returncode == 0, result.stderr
+    metrics: dict[str, Any] = json.loads(result.stdout)
+    return metrics
+
+
+def assert_same_flight(rehearsal: dict[str, Any], flight: dict[str, Any]) -> None:
+    """The same keys and figures; what only endpoints have is null."""
+    assert rehearsal.keys() == {"run", *flight}
+    assert rehearsal["timing"].keys() == flight["timing"].keys()
+    assert rehearsal["timing"]["startup_s"] is rehearsal["timing"]["upload_s"] is None
+    assert rehearsal["formation"] == flight["formation"]
+    assert rehearsal["limits"] == flight["limits"]
+    assert rehearsal["events"] == flight["events"]
+    only = dict.fromkeys(("items_uploaded", "items_verified"))
+    assert rehearsal["vehicles"] == [vehicle | only for vehicle in flight["vehicles"]]
 
 
 def test_a_planned_run_is_flown_and_its_missions_exported(short_scenario: Path, tmp_path: Path) -> None:
@@ -182,11 +198,20 @@ def test_a_planned_run_is_flown_and_its_missions_exported(short_scenario: Path, 
     plain = skein("fly", run, "--no-corrections", "--json")
     assert plain.returncode == 0, plain.stderr
     assert json.loads(plain.stdout)["arm"] == "plain"
+    assert rehearsed_sha256(run, "plain") == json.loads(plain.stdout)["trajectory_sha256"]
     alone = skein("fly", run, "--no-neighbours", "--json")
     assert json.loads(alone.stdout)["formation"]["rms_error_m"] < json.loads(plain.stdout)["formation"]["rms_error_m"]
+    assert rehearsed_sha256(run, "own_schedule") == json.loads(alone.stdout)["trajectory_sha256"]
     out = tmp_path / "missions"
     assert skein("export", run, "--format", "waypoints", "--out", out).returncode == 0
     assert [file.read_text()[:11] for file in sorted(out.iterdir())] == ["QGC WPL 110"] * 3
+
+
+def rehearsed_sha256(run: Path, arm: Arm) -> str | None:
+    """Of the rehearsal of a planned run."""
+    scenario, plan = RunFolder(run).read()
+    truths, record = rehearse_plan(scenario, plan, RehearsalOptions(plan.seed, scenario.formation.delay_s, arm))
+    return report_on(scenario, plan, truths, record).metrics["trajectory_sha256"]  # type: ignore[no-any-return]
 
 
 @pytest.fixture
