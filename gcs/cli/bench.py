@@ -1,6 +1,5 @@
 """`skein bench`: compare searches fairly."""
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,6 +7,7 @@ import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.options import JsonOption, finite
+from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from planner.bench.comparison import Comparison
     from planner.bench.job import Limit
     from planner.bench.problems import BenchProblem
-    from planner.bench.run_jobs import Workers
+    from planner.jobs.run_jobs import Workers
 
 SEEDS, BUDGET, TIME_S = 15, "200,2000", 1.0
 QUICK_SEEDS, QUICK_BUDGET, QUICK_TIME_S = 3, "200", 0.2
@@ -39,12 +39,6 @@ TimeOption = Annotated[
     typer.Option(
         "--time", metavar="S", min=0.0, callback=finite, help="CPU seconds of each run at equal time; 1 unless given."
     ),
-]
-JobsOption = Annotated[
-    int | None, typer.Option("--jobs", min=1, metavar="N", help="Processes; all cores unless given.")
-]
-ClusterOption = Annotated[
-    str | None, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler to send the runs to.")
 ]
 QuickOption = Annotated[bool, typer.Option("--quick", help="A handful of problems, 3 seeds, small limits.")]
 KernelOption = Annotated[bool, typer.Option("--kernel", help="Measure the compiled objective instead of searches.")]
@@ -82,8 +76,6 @@ def bench(
 
     Example: skein bench --quick --methods pso,skein --out /tmp/bench
     """
-    # A worker that is ended, as by Ctrl-C, leaves numba's lock to Python's tracker of such things, which tells of it.
-    os.environ.setdefault("PYTHONWARNINGS", "ignore:resource_tracker")
     with exit_codes():
         if kernel:
             measure_kernel(json)
@@ -231,19 +223,6 @@ def chosen_limits(budget: str, time_s: float) -> "tuple[Limit, ...]":
     return tuple(limits)
 
 
-def chosen_workers(jobs: int | None, cluster: str | None) -> "Workers":
-    """This machine's processes, or a cluster's. Raises InputError."""
-    from missions.errors import InputError
-    from planner.bench.cluster import connect
-    from planner.bench.processes import Processes
-
-    if cluster is None:
-        return Processes(jobs or os.cpu_count() or 1)
-    if jobs is not None:
-        raise InputError("--jobs and --cluster: a cluster has as many workers as it has; choose one of them")
-    return connect(cluster)
-
-
 def with_progress(
     problems: "Sequence[BenchProblem]",
     methods: "Sequence[str]",
@@ -257,14 +236,14 @@ def with_progress(
     from gcs.cli import output
     from planner.bench.best_known import load_best_known
     from planner.bench.compare import compare
-    from planner.bench.job import Run
-    from planner.bench.run_jobs import Failure
+    from planner.bench.job import Job, Run
+    from planner.jobs.run_jobs import Failure
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=output.progress, transient=True) as bar:
         task = bar.add_task("Running", total=len(problems) * len(methods) * seeds * len(limits))
 
-        def done(result: Run | Failure) -> None:
+        def done(result: Run | Failure[Job]) -> None:
             bar.update(task, advance=1, description=result.job.name)
 
         return compare(problems, methods, seeds, limits, workers, load_best_known(), done)

@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 
 from planner.bench.best_known import BestKnown
 from planner.bench.comparison import Comparison
-from planner.bench.job import Job, Limit, Run
+from planner.bench.job import Job, Limit, Run, run_job
 from planner.bench.problems import BenchProblem
-from planner.bench.run_jobs import Failure, Workers, run_jobs
+from planner.jobs.run_jobs import Failure, Workers, run_jobs
 
 
 def make_jobs(
@@ -29,17 +29,17 @@ def compare(
     limits: Sequence[Limit],
     workers: Workers,
     known: BestKnown,
-    done: Callable[[Run | Failure], None],
+    done: Callable[[Run | Failure[Job]], None],
 ) -> Comparison:
     """Run everything, telling of each run as it ends."""
-    results: list[Run | Failure] = []
+    results: list[Run | Failure[Job]] = []
 
-    def keep(result: Run | Failure) -> None:
+    def keep(result: Run | Failure[Job]) -> None:
         results.append(result)
         done(result)
 
     jobs = make_jobs(problems, methods, seeds, limits)
-    run_jobs(jobs, workers, keep)
+    run_jobs(jobs, workers, run_job, keep)
     order = {job: i for i, job in enumerate(jobs)}
     results.sort(key=lambda result: order[result.job])
     return Comparison(

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planner.bench.job import Limit, Run
+from planner.bench.job import Job, Limit, Run
 from planner.bench.measures import CPU_S, EVALUATIONS, expected_running_time, final_gap, quartiles, used_to_reach
 from planner.bench.methods import REFERENCE
 from planner.bench.problems import BenchProblem
-from planner.bench.run_jobs import Failure
 from planner.bench.significance import friedman_p, holm, mean_ranks, wilcoxon_p
+from planner.jobs.run_jobs import Failure
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -40,7 +40,7 @@ class Comparison:
     limits: tuple[Limit, ...]
     known_km: Mapping[str, float]
     runs: tuple[Run, ...]
-    failures: tuple[Failure, ...]
+    failures: tuple[Failure[Job], ...]
 
     @cached_property
     def best_km(self) -> dict[str, float]:

@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 from matplotlib.image import imread
 
-from gcs.cli.bench import chosen_limits, chosen_workers
+from gcs.cli.bench import chosen_limits
 from gcs.cli.bench_tables import family_table, kernel_table, method_table, together_table, work_table
 from gcs.cli.output import WIDE, print_wide
+from gcs.cli.workers import chosen_workers
 from gcs.figures.bench import looks
 from missions.errors import InputError
 from planner.bench.comparison import Comparison

@@ -2,17 +2,18 @@
 on."""
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Generic, Protocol, TypeVar
 
-from planner.bench.job import Job, Run, run_job
+Job = TypeVar("Job")
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
-class Failure:
+class Failure(Generic[Job]):
     """A job that gave no result, and why."""
 
     job: Job
@@ -34,22 +35,28 @@ class Workers(Protocol):
 
 
 def run_jobs(
-    jobs: Sequence[Job],
+    jobs: Iterable[Job],
     workers: Workers,
-    done: Callable[[Run | Failure], None],
-    run: Callable[[Job], Run] = run_job,
+    run: Callable[[Job], Result],
+    done: Callable[[Result | Failure[Job]], None],
 ) -> None:
     """Run jobs, telling of each as it ends, in whatever order.
 
     A process that dies takes its executor with it, and nobody says which job it was. So those under way are run again,
     each alone, and which then dies again is to blame.
+
+    Args:
+        jobs: to be run; they and their results can be pickled.
+        workers: that run them.
+        run: runs one.
+        done: called with what came of each.
     """
     waiting, suspects = deque(jobs), deque[Job]()
     while suspects or waiting:
         if not suspects:
-            suspects.extend(_until_broken(waiting, workers, workers.at_once, done, run))
+            suspects.extend(_until_broken(waiting, workers, workers.at_once, run, done))
         else:
-            for job in _until_broken(suspects, workers, 1, done, run):
+            for job in _until_broken(suspects, workers, 1, run, done):
                 done(Failure(job, "its process died"))
 
 
@@ -57,11 +64,11 @@ def _until_broken(
     queue: deque[Job],
     workers: Workers,
     at_once: int,
-    done: Callable[[Run | Failure], None],
-    run: Callable[[Job], Run],
+    run: Callable[[Job], Result],
+    done: Callable[[Result | Failure[Job]], None],
 ) -> list[Job]:
     """Run jobs from a queue in one executor until it is empty or the executor breaks; returns those then under way."""
-    under_way: dict[Future[Run], Job] = {}
+    under_way: dict[Future[Result], Job] = {}
     broken: list[Job] = []
     with workers.opened(at_once) as executor:
         while (queue or under_way) and not broken:

@@ -3,10 +3,12 @@
 import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing.connection import wait
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """What keeps the libraries below numpy to one thread in a process that starts with them."""
@@ -22,15 +24,15 @@ class Processes:
     def opened(self, at_once: int) -> Iterator[Executor]:
         """Processes from a forkserver: a fork of a process with numba's threads would die.
 
-        They leave Ctrl-C, which reaches the whole group, to their parent, which ends them.
+        They leave Ctrl-C, which reaches the whole group, to their parent, which ends them, and end with it when it is
+        killed.
         """
         before = set(multiprocessing.active_children())
         with _one_thread():
             executor = ProcessPoolExecutor(
                 at_once,
                 mp_context=multiprocessing.get_context("forkserver"),
-                initializer=signal.signal,
-                initargs=(signal.SIGINT, signal.SIG_IGN),
+                initializer=_begin,
             )
             try:
                 yield executor
@@ -40,6 +42,19 @@ class Processes:
                 executor.shutdown(wait=False, cancel_futures=True)
                 raise
             executor.shutdown()
+
+
+def _begin() -> None:
+    """What each process does first."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    wait([parent.sentinel])
+    os._exit(1)  # the pool's queues would never tell: this process holds both ends of them
 
 
 @contextmanager

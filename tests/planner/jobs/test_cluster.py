@@ -8,10 +8,10 @@ import pytest
 from distributed import LocalCluster
 
 from missions.errors import InputError
-from planner.bench import cluster
 from planner.bench.job import Job, Limit, Run, run_job
 from planner.bench.problems import bench_problem
-from planner.bench.run_jobs import Failure, run_jobs
+from planner.jobs import cluster
+from planner.jobs.run_jobs import Failure, run_jobs
 
 
 @pytest.fixture(scope="module")
@@ -26,10 +26,10 @@ def test_runs_come_back_as_they_would_from_here_and_errors_by_name(address: str)
     problem = bench_problem("forest-5-1")
     wanted = [Job(problem.name, problem.digest, "pso", seed, Limit(20)) for seed in (1, 2, 3)]
     other_version = Job(problem.name, "0" * 16, "pso", 4, Limit(20))
-    results: list[Run | Failure] = []
+    results: list[Run | Failure[Job]] = []
     workers = cluster.connect(address)
     assert workers.at_once == 4
-    run_jobs([*wanted, other_version], workers, results.append)
+    run_jobs([*wanted, other_version], workers, run_job, results.append)
     runs = {result.job: result for result in results if isinstance(result, Run)}
     assert set(runs) == set(wanted)
     assert runs[wanted[0]].lines[:, [0, 2]].tolist() == run_job(wanted[0]).lines[:, [0, 2]].tolist()

@@ -3,17 +3,21 @@
 import multiprocessing
 import os
 import signal
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from planner.bench.job import Job, Limit, Run, run_job
 from planner.bench.problems import bench_problem
-from planner.bench.processes import Processes
-from planner.bench.run_jobs import Failure, run_jobs
+from planner.jobs.processes import Processes
+from planner.jobs.run_jobs import Failure, run_jobs
 
 SMALL = Limit(20)
 
@@ -29,8 +33,8 @@ def children() -> set[multiprocessing.process.BaseProcess]:
 def test_two_processes_give_what_one_gives_and_errors_by_name() -> None:
     wanted = jobs("radars-F2", "forest-5-1")
     bad = [replace(wanted[0], digest="0" * 16), replace(wanted[0], method="none")]
-    results: list[Run | Failure] = []
-    run_jobs([bad[0], *wanted, bad[1]], Processes(2), results.append)
+    results: list[Run | Failure[Job]] = []
+    run_jobs([bad[0], *wanted, bad[1]], Processes(2), run_job, results.append)
     runs = {result.job: result for result in results if isinstance(result, Run)}
     assert set(runs) == set(wanted)
     for job, run in runs.items():
@@ -47,7 +51,7 @@ def test_a_killed_process_takes_no_job_with_it() -> None:
     """Its jobs run again, alone; only what dies again is to blame."""
     before, results = children(), []
 
-    def kill_one(result: Run | Failure) -> None:
+    def kill_one(result: Run | Failure[Job]) -> None:
         if not results:
             pid = next(iter(children() - before)).pid
             assert pid is not None
@@ -55,7 +59,7 @@ def test_a_killed_process_takes_no_job_with_it() -> None:
         results.append(result)
 
     wanted = jobs("forest-5-1", seeds=4)
-    run_jobs(wanted, Processes(2), kill_one)
+    run_jobs(wanted, Processes(2), run_job, kill_one)
     assert sorted(result.job.seed for result in results) == [1, 2, 3, 4]
     assert all(isinstance(result, Run) for result in results)
 
@@ -86,9 +90,9 @@ class Deadlies:
 
 
 def test_the_job_that_kills_its_process_is_named() -> None:
-    done: list[Run | Failure] = []
+    done: list[Run | Failure[Job]] = []
     wanted = jobs("forest-5-1", seeds=5)
-    run_jobs(wanted, Deadlies(), done.append, run=lambda job: Failure(job, "fine"))  # type: ignore[arg-type, return-value]
+    run_jobs(wanted, Deadlies(), lambda job: Failure(job, "fine"), done.append)
     reasons = {result.job.seed: result.reason for result in done if isinstance(result, Failure)}
     assert reasons == {1: "fine", 2: "fine", 3: "its process died", 4: "fine", 5: "fine"}
 
@@ -96,11 +100,42 @@ def test_the_job_that_kills_its_process_is_named() -> None:
 def test_an_interrupt_leaves_no_process() -> None:
     before = children()
 
-    def interrupt(result: Run | Failure) -> None:
+    def interrupt(result: Run | Failure[Job]) -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_jobs(jobs("forest-5-1", seeds=20), Processes(2), interrupt)
+        run_jobs(jobs("forest-5-1", seeds=20), Processes(2), run_job, interrupt)
     for process in children() - before:
         process.join(timeout=20)
     assert children() == before
+
+
+ORPHANS = """
+from planner.jobs.processes import Processes
+import os, time
+if __name__ == "__main__":
+    with Processes(2).opened(2) as executor:
+        executor.submit(time.sleep, 1000.0)
+        print(executor.submit(os.getpid).result(), flush=True)
+        time.sleep(1000.0)
+"""
+
+
+def test_processes_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+    script = tmp_path / "parent.py"
+    script.write_text(ORPHANS)
+    with subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdout is not None
+        worker = int(parent.stdout.readline())
+        parent.kill()
+    deadline = time.monotonic() + 30.0
+    while alive(worker):
+        assert time.monotonic() < deadline, "it lives on"
+        time.sleep(0.02)
+
+
+def alive(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
