@@ -1,5 +1,6 @@
 """Planning with a progress bar on standard error, and plans made before."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
@@ -28,21 +29,46 @@ def search_with_progress(scenario: Scenario, seed: int | None, method: str | Non
         return search(scenario, seed=seed, method=method, progress=show)
 
 
-def plan_of(source: str, seed: int | None) -> tuple[str, Scenario, FormationPlan]:
-    """The text of a scenario, the scenario, and its plan: that of a planned run, or one made now.
+@dataclass(frozen=True)
+class Source:
+    """What is to be flown: a scenario, its text, and its plan if there is one."""
 
-    Args:
-        source: name of a scenario that ships, a scenario's file, or a run's folder.
-        seed: of the search, when there is one; None for the scenario's.
+    text: str
+    scenario: Scenario
+    plan: FormationPlan | None
+
+
+def read_source(source: str) -> Source:
+    """What a user has named: a scenario that ships, a scenario's file, or the folder of a planned run.
 
     Raises:
-        InputError: there is no such thing, it cannot be used, or no plan was found.
+        InputError: there is no such thing, or it cannot be used.
     """
     if source not in shipped_scenarios() and Path(source).is_dir():
         run = RunFolder(Path(source))
         scenario, plan = run.read()
         text, _ = read_scenario_text(str(run.scenario))
-        return text, scenario, plan
+        return Source(text, scenario, plan)
     text, label = read_scenario_text(source)
-    scenario = parse_scenario(text, label, scenario_folder(source))
-    return text, scenario, search_with_progress(scenario, seed, None)
+    return Source(text, parse_scenario(text, label, scenario_folder(source)), None)
+
+
+def plan_for(run: RunFolder | None, source: Source, seed: int | None) -> FormationPlan:
+    """The plan that there is, or one made now.
+
+    Args:
+        run: where it will be kept: removed again, if it is empty, when there is no plan.
+        source: what to plan.
+        seed: of the search; None for the scenario's.
+
+    Raises:
+        InputError: no plan was found.
+    """
+    if source.plan is not None:
+        return source.plan
+    try:
+        return search_with_progress(source.scenario, seed, None)
+    except BaseException:
+        if run is not None:
+            run.discard_if_empty()
+        raise
