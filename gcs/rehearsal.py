@@ -4,11 +4,13 @@ import time
 from dataclasses import dataclass, replace
 
 from gcs.delay_margin import delay_margin_s
-from gcs.flight_record import FlightRecord, Timing
+from gcs.flight_record import Event, FlightRecord, Timing
 from gcs.truth import Truths
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from sitl.config import Arm
+from sitl.crew import KILLED
+from sitl.formation.network import complete
 from sitl.rehearsal import rehearse
 from sitl.swarm import SwarmOptions, vehicle_configs
 from sitl.ticks import TICK_S, delay_ticks
@@ -38,7 +40,7 @@ def compile_rehearsal(scenario: Scenario, plan: FormationPlan) -> float:
     """
     began = time.monotonic()
     first, *_ = vehicle_configs(scenario, SwarmOptions(plan.seed, 0.0))
-    rehearse([replace(first, weights={})], plan.missions)
+    rehearse([replace(first, network=complete([first.sysid], (), 1))], plan.missions)
     return time.monotonic() - began
 
 
@@ -60,6 +62,7 @@ def rehearse_plan(
     flown = rehearse(vehicles, plan.missions)
     wall_s = time.monotonic() - began
     sim_s = max(map(len, flown.truth.values())) * TICK_S
+    lost = {i: tick * TICK_S for i, tick in vehicles[0].network.deaths.items() if len(flown.truth[i]) == tick}
     record = FlightRecord(
         seed=options.seed,
         delay_s=delay_ticks(options.delay_s) * TICK_S,
@@ -75,10 +78,11 @@ def rehearse_plan(
             flight_sim_s=sim_s,
             real_time_factor=sim_s / wall_s,
         ),
-        events=(),
-        lost={},
+        events=tuple(Event(t_s, sysid, f"lost: vehicle {sysid}: {KILLED}") for sysid, t_s in lost.items()),
+        lost=lost,
         late_samples=0,
         lost_samples=0,
         delay_margin_s=delay_margin_s(scenario),
+        edges=tuple(flown.edges),
     )
     return flown.truth, record

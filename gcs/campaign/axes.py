@@ -10,23 +10,26 @@ In a file an axis is written as the key is in a scenario, with a list of values 
 
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, get_args
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from missions.errors import InputError
 from missions.scenario import Scenario
+from missions.scenario.check import problems
 from sitl.config import Arm
 
 ARM = "arm"
 DELAY = "formation.delay_s"
-WHOLE_TABLES = ("formation",)
+WHOLE_TABLES = ("formation", "channel")
 """Tables of a scenario of which every key may vary."""
-KEYS = ("wind.steady_m_s", "wind.gusts")
+KEYS = ("links", "failures", "wind.steady_m_s", "wind.gusts")
 """Others that may."""
 
-Value = str | float | tuple[float, ...]
+Value = Any
+"""As the scenario holds it: numbers, words, or tables and tuples of them; to be compared and hashed."""
 Axes = Mapping[str, tuple[Value, ...]]
 """By key, such as formation.delay_s, its values: each once, in order."""
 
@@ -63,9 +66,13 @@ def with_values(scenario: Scenario, values: Mapping[str, Value]) -> Scenario:
         if key == ARM:
             continue
         table, _, field = key.partition(".")
-        model = getattr(scenario, table)
+        old = getattr(scenario, table)
         try:
-            changed = type(model).model_validate({**model.model_dump(), field: value})
+            if field:
+                changed = type(old).model_validate({**dict(old), field: value})
+            else:
+                annotation: Any = Scenario.model_fields[table].annotation
+                changed = TypeAdapter(annotation).validate_python(value)
         except ValidationError as error:
             raise InputError(f"{key}: {error.errors()[0]['msg']}, got {value!r}") from None
         scenario = scenario.model_copy(update={table: changed})
@@ -78,9 +85,10 @@ def _checked(scenario: Scenario, key: str, value: Any) -> Value:
         if value not in get_args(Arm):
             raise InputError(f"{key}: must be one of {', '.join(get_args(Arm))}, got {value!r}")
         return str(value)
-    table, _, field = key.partition(".")
-    checked: Value = getattr(getattr(with_values(scenario, {key: value}), table), field)
-    return checked
+    changed = with_values(scenario, {key: value})
+    for problem in problems(changed):
+        raise InputError(f"{key}: {value!r}: {problem}")
+    return attrgetter(key)(changed)
 
 
 def read_axes(path: Path) -> dict[str, Any]:

@@ -5,7 +5,6 @@ A campaign may be killed at any time: a row counts once its line is whole, and a
 
 import csv
 import io
-import json
 import os
 import time
 from collections.abc import Sequence
@@ -13,6 +12,8 @@ from dataclasses import astuple, fields
 from pathlib import Path
 from types import TracebackType
 from typing import Any
+
+from pydantic_core import to_json
 
 from gcs.campaign.axes import Value
 from gcs.campaign.case import Case, Flown, Outcome
@@ -98,5 +99,5 @@ def key_of(case: Case) -> tuple[str, ...]:
 
 
 def cell_of(value: Value) -> str:
-    """An axis' value as text; a pair of numbers as TOML has it."""
-    return json.dumps(value) if isinstance(value, tuple) else str(value)
+    """An axis' value as text: a word or a number as it is, anything else as JSON."""
+    return str(value) if isinstance(value, str | float) else to_json(value).decode()

@@ -51,6 +51,9 @@ GrowthOption = Annotated[
 MavlinkOption = Annotated[
     bool, typer.Option("--mavlink", help="Measure station and endpoints against MAVSDK and MAVProxy, instead.")
 ]
+RehearsalOption = Annotated[
+    bool, typer.Option("--rehearsal", help="Measure how fast nine aircraft are rehearsed, and flown, instead.")
+]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and figures.")]
 UpdateOption = Annotated[bool, typer.Option("--update-best", help="Keep what is better than the best-known paths.")]
 
@@ -70,6 +73,7 @@ def bench(
     kernel: KernelOption = False,
     growth: GrowthOption = False,
     mavlink: MavlinkOption = False,
+    rehearsal: RehearsalOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare searches on many problems, at equal evaluations and at equal CPU time.
@@ -84,6 +88,11 @@ def bench(
             from gcs.cli.bench_mavlink import measure_mavlink
 
             measure_mavlink(quick, json)
+            return
+        if rehearsal:
+            from gcs.cli.bench_rehearsal import bench_rehearsal
+
+            bench_rehearsal(quick, json)
             return
         if growth:
             plan_many(quick, out, json)

@@ -23,7 +23,7 @@ def campaign_table(campaign: Campaign, settings: Sequence[Setting]) -> Table:
     caption = "RMS formation error: median, 95 % and largest; largest spread of arrivals; least distances"
     table = Table(title=escape(title), caption=caption, title_justify="left", caption_justify="left")
     for heading in varied:
-        table.add_column(escape(heading.rpartition(".")[2]), no_wrap=True)
+        table.add_column(escape(heading.rpartition(".")[2]), overflow="fold", max_width=28)
     for heading in ("flights", "median m", "95 % m", "max m", "spread s", "separation m", "ground m", "incomplete"):
         table.add_column(heading, justify="right")
     for setting in settings:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from textwrap import shorten
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +21,8 @@ PANELS = (
     ("arrival_spread_s", "Arrival spread", "s", True),
 )
 """Column, title, unit, and whether its axis is logarithmic."""
+LABEL = 28
+"""Characters."""
 WHISKERS = (5, 95)
 """Per cent."""
 
@@ -66,7 +69,7 @@ def _draw_axis(campaign: Campaign, rows: Sequence[Row], key: str | None, path: P
                 panel.yaxis.set_minor_formatter("{x:g}")
             panel.grid(visible=False, axis="x")
         panels[1].axhline(campaign.scenario.limits.separation_m, color=style.DANGER, linewidth=1.4)
-        panels[-1].set_xticks(range(len(values)), values)
+        panels[-1].set_xticks(range(len(values)), [shorten(value, LABEL) for value in values])
         panels[-1].set_xlim(-0.6, len(values) - 0.4)
         if key is not None:
             panels[-1].set_xlabel(key)

@@ -20,6 +20,7 @@ from missions.mission import Mission, MissionItem
 from missions.reference import Reference
 from missions.scenario import Scenario, VehicleModel, load_scenario, read_scenario_text
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
+from planner.plan import plan
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
 from sitl.services.signing import Signing
@@ -80,6 +81,16 @@ def short_scenario(tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("scenario") / "short.toml"
     file.write_text(head + "".join(vehicles[:3]) + "# Aerosonde" + rest)
     return file
+
+
+@pytest.fixture(scope="session")
+def short(short_scenario: Path) -> Scenario:
+    return load_scenario(str(short_scenario))
+
+
+@pytest.fixture(scope="session")
+def short_plan(short: Scenario) -> FormationPlan:
+    return plan(short)
 
 
 @pytest.fixture(scope="session")

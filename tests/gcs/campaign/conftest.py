@@ -1,24 +1,11 @@
 """A campaign of three aircraft on a short way: small enough to be flown in a test."""
 
-from pathlib import Path
-
 import pytest
 
 from gcs.campaign.axes import make_axes
 from gcs.campaign.campaign import Campaign
-from missions.scenario import Scenario, load_scenario
+from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
-from planner.plan import plan
-
-
-@pytest.fixture(scope="session")
-def short(short_scenario: Path) -> Scenario:
-    return load_scenario(str(short_scenario))
-
-
-@pytest.fixture(scope="session")
-def short_plan(short: Scenario) -> FormationPlan:
-    return plan(short)
 
 
 @pytest.fixture(scope="session")

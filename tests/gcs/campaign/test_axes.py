@@ -1,9 +1,11 @@
+import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from gcs.campaign.axes import make_axes, parse_axis, read_axes, with_values
+from gcs.campaign.table import cell_of
 from missions.errors import InputError
 from missions.scenario import Scenario
 
@@ -11,6 +13,20 @@ from missions.scenario import Scenario
 def test_values_are_held_once_and_as_the_scenario_holds_them(radars: Scenario) -> None:
     axes = make_axes(radars, {"formation.delay_s": [1, 0.2, 1.0], "wind.steady_m_s": [[0, 0], [-3, 4.0]]})
     assert axes == {"formation.delay_s": (1.0, 0.2), "wind.steady_m_s": ((0.0, 0.0), (-3.0, 4.0))}
+
+
+def test_tables_and_lists_of_tables_are_values_too(radars: Scenario) -> None:
+    kill = {"what": "kill", "at_s": 100.0, "vehicles": [3]}
+    burst = {"every_s": 20.0, "length_s": 2.0}
+    axes = make_axes(
+        radars, {"failures": [[], [kill]], "channel.bursts": [burst], "formation.graph": [[[1, 2]], "ring"]}
+    )
+    changed = with_values(radars, {key: values[-1] for key, values in axes.items()})
+    assert [failure.vehicles for failure in changed.failures] == [(3,)]
+    assert changed.channel.bursts is not None
+    assert changed.channel.bursts.length_s == 2.0
+    assert [cell_of(value) for value in axes["formation.graph"]] == ["[[1,2]]", "ring"]
+    assert json.loads(cell_of(axes["failures"][1]))[0] == kill | {"for_s": None, "groups": []}
 
 
 def test_a_value_takes_the_place_of_the_scenarios_and_nothing_else_changes(radars: Scenario) -> None:
@@ -32,6 +48,7 @@ def test_a_value_takes_the_place_of_the_scenarios_and_nothing_else_changes(radar
         ({"formation.delay_s": ["soon"]}, r"formation.delay_s: .* got 'soon'"),
         ({"wind.gusts": ["storm"]}, r"wind.gusts: .* got 'storm'"),
         ({"wind.gusts": "light"}, "wind.gusts: needs a list of values"),
+        ({"failures": [[{"what": "kill", "at_s": 1.0, "vehicles": [77]}]]}, r"failures: .* 77"),
         ({"arm": []}, "arm: needs a list of values"),
         ({"arm": ["half"]}, "arm: must be one of full, own_schedule, plain, got 'half'"),
     ],

@@ -28,7 +28,7 @@ def test_rows_are_found_again_by_values_and_seed(tmp_path: Path) -> None:
     with Table(tmp_path / "runs.csv", AXES) as table:
         row = table.row_of(flown(2).case)
         assert row is not None
-        assert (row["seed"], row["wind.steady_m_s"], row["arm"]) == ("2", "[-3.0, 4.0]", "full")
+        assert (row["seed"], row["wind.steady_m_s"], row["arm"]) == ("2", "[-3.0,4.0]", "full")
         assert float(row["rms_error_m"]) == 0.1 * 2
         assert row["min_wall_m"] == ""
         assert table.row_of(flown(4).case) is None
