@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from pydantic import TypeAdapter, ValidationError
+from pydantic_core import to_json
 
 from missions.errors import InputError
 from missions.scenario import Scenario
@@ -27,6 +28,9 @@ WHOLE_TABLES = ("formation", "channel")
 """Tables of a scenario of which every key may vary."""
 KEYS = ("links", "failures", "wind.steady_m_s", "wind.gusts")
 """Others that may."""
+
+LABEL = 16
+"""Characters that there is room for."""
 
 Value = Any
 """As the scenario holds it: numbers, words, or tables and tuples of them; to be compared and hashed."""
@@ -77,6 +81,17 @@ def with_values(scenario: Scenario, values: Mapping[str, Value]) -> Scenario:
             raise InputError(f"{key}: {error.errors()[0]['msg']}, got {value!r}") from None
         scenario = scenario.model_copy(update={table: changed})
     return scenario
+
+
+def cell_of(value: Value) -> str:
+    """A value as text: a word or a number as it is, anything else as JSON."""
+    return str(value) if isinstance(value, str | float) else to_json(value, exclude_none=True).decode()
+
+
+def labels(values: Sequence[Value]) -> dict[str, str]:
+    """By the text of each value of an axis, what to call it where there is little room: #1, #2 for what is long."""
+    texts = [cell_of(value) for value in values]
+    return {text: text if len(text) <= LABEL else f"#{i}" for i, text in enumerate(texts, 1)}
 
 
 def _checked(scenario: Scenario, key: str, value: Any) -> Value:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from gcs.campaign.axes import cell_of
 from gcs.campaign.campaign import Campaign
 from gcs.campaign.case import Case
-from gcs.campaign.table import Row, Table, cell_of
+from gcs.campaign.table import Row, Table
 
 
 @dataclass(frozen=True)

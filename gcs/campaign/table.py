@@ -13,9 +13,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from pydantic_core import to_json
-
-from gcs.campaign.axes import Value
+from gcs.campaign.axes import cell_of
 from gcs.campaign.case import Case, Flown, Outcome
 from missions.errors import InputError
 
@@ -96,8 +94,3 @@ class Table:
 def key_of(case: Case) -> tuple[str, ...]:
     """The cells that tell a flight from all others: the axes' values and the seed."""
     return (*(cell_of(value) for _, value in case.values), str(case.seed))
-
-
-def cell_of(value: Value) -> str:
-    """An axis' value as text: a word or a number as it is, anything else as JSON."""
-    return str(value) if isinstance(value, str | float) else to_json(value).decode()

@@ -1,10 +1,11 @@
 """The table that a campaign prints."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from rich.markup import escape
 from rich.table import Table
 
+from gcs.campaign.axes import labels
 from gcs.campaign.campaign import Campaign
 from gcs.campaign.summary import Setting
 
@@ -17,27 +18,38 @@ def campaign_table(campaign: Campaign, settings: Sequence[Setting]) -> Table:
         [
             f"Campaign of {campaign.scenario.name}",
             f"seeds {campaign.seeds[0]} to {campaign.seeds[-1]}",
-            *(f"{key} {values[0]}" for key, values in fixed.items()),
+            *(f"{key} {next(iter(labels(values).values()))}" for key, values in fixed.items()),
         ]
     )
-    caption = "RMS formation error: median, 95 % and largest; largest spread of arrivals; least distances"
+    caption = (
+        "Of n flights: formation error, median, 95 % and largest RMS in m; largest spread of arrivals in s;\n"
+        "least separation in m; in how many not all arrived"
+    )
     table = Table(title=escape(title), caption=caption, title_justify="left", caption_justify="left")
+    short = {key: labels(values) for key, values in campaign.axes.items()}
     for heading in varied:
-        table.add_column(escape(heading.rpartition(".")[2]), overflow="fold", max_width=28)
-    for heading in ("flights", "median m", "95 % m", "max m", "spread s", "separation m", "ground m", "incomplete"):
-        table.add_column(heading, justify="right")
+        table.add_column(escape(heading.rpartition(".")[2]), no_wrap=True)
+    for heading in ("n", "median", "95 %", "max", "spread", "apart", "short"):
+        table.add_column(heading, justify="right", no_wrap=True)
     for setting in settings:
         errors = setting.rms_error_m or (None, None, None)
         table.add_row(
-            *(escape(setting.values[key]) for key in varied),
+            *(escape(short[key][setting.values[key]]) for key in varied),
             str(setting.flights),
-            *(_shown(error, ".2f") for error in errors),
-            _shown(setting.arrival_spread_s, ".2f"),
+            *(_shown(error, ".3g") for error in errors),
+            _shown(setting.arrival_spread_s, ".3g"),
             _shown(setting.min_separation_m, ".0f"),
-            _shown(setting.min_clearance_m, ".0f"),
             f"[red]{setting.incomplete}[/red]" if setting.incomplete else "0",
         )
     return table
+
+
+def long_values(campaign: Campaign) -> Iterator[str]:
+    """A line for each value that the table only numbers."""
+    for key, values in campaign.axes.items():
+        for text, label in labels(values).items():
+            if text != label:
+                yield f"{key} {label}: {text}"
 
 
 def _shown(value: float | None, form: str) -> str:

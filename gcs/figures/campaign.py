@@ -2,16 +2,16 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from textwrap import shorten
 
 import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes as Panel
+from matplotlib.ticker import LogFormatter
 
-from gcs.campaign.axes import ARM
+from gcs.campaign.axes import ARM, cell_of, labels
 from gcs.campaign.campaign import Campaign
 from gcs.campaign.summary import numbers
-from gcs.campaign.table import Row, Table, cell_of
+from gcs.campaign.table import Row, Table
 from gcs.figures import style
 from gcs.figures.arms import LOOKS
 
@@ -21,8 +21,6 @@ PANELS = (
     ("arrival_spread_s", "Arrival spread", "s", True),
 )
 """Column, title, unit, and whether its axis is logarithmic."""
-LABEL = 28
-"""Characters."""
 WHISKERS = (5, 95)
 """Per cent."""
 
@@ -66,10 +64,10 @@ def _draw_axis(campaign: Campaign, rows: Sequence[Row], key: str | None, path: P
             if logarithmic:
                 panel.set_yscale("log")
                 panel.yaxis.set_major_formatter("{x:g}")
-                panel.yaxis.set_minor_formatter("{x:g}")
+                panel.yaxis.set_minor_formatter(LogFormatter(minor_thresholds=(1.0, 0.5)))
             panel.grid(visible=False, axis="x")
         panels[1].axhline(campaign.scenario.limits.separation_m, color=style.DANGER, linewidth=1.4)
-        panels[-1].set_xticks(range(len(values)), [shorten(value, LABEL) for value in values])
+        panels[-1].set_xticks(range(len(values)), values if key is None else list(labels(campaign.axes[key]).values()))
         panels[-1].set_xlim(-0.6, len(values) - 0.4)
         if key is not None:
             panels[-1].set_xlabel(key)

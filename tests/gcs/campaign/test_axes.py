@@ -4,8 +4,7 @@ from typing import Any
 
 import pytest
 
-from gcs.campaign.axes import make_axes, parse_axis, read_axes, with_values
-from gcs.campaign.table import cell_of
+from gcs.campaign.axes import cell_of, labels, make_axes, parse_axis, read_axes, with_values
 from missions.errors import InputError
 from missions.scenario import Scenario
 
@@ -26,7 +25,8 @@ def test_tables_and_lists_of_tables_are_values_too(radars: Scenario) -> None:
     assert changed.channel.bursts is not None
     assert changed.channel.bursts.length_s == 2.0
     assert [cell_of(value) for value in axes["formation.graph"]] == ["[[1,2]]", "ring"]
-    assert json.loads(cell_of(axes["failures"][1]))[0] == kill | {"for_s": None, "groups": []}
+    assert json.loads(cell_of(axes["failures"][1]))[0] == kill | {"groups": []}
+    assert list(labels(axes["failures"]).values()) == ["[]", "#2"]
 
 
 def test_a_value_takes_the_place_of_the_scenarios_and_nothing_else_changes(radars: Scenario) -> None:
