@@ -109,7 +109,7 @@ async def fly(
 
     for line in fleet.complaints():
         announce(line)
-    ends = [endpoint.last for endpoint in swarm.endpoints.values() if isinstance(endpoint.last, Ended)]
+    ends = [endpoint.last for endpoint in swarm.endpoints.values() if endpoint.last is not None]
     flight_sim_s = max(vehicle.simulated_ms for vehicle in vehicles) / 1000.0
     return FlightRecord(
         seed=plan.seed,
@@ -129,7 +129,7 @@ async def fly(
         events=tuple(events),
         lost=lost,
         late_samples=0,  # in lockstep a vehicle waits for what it needs
-        lost_samples=sum(end.rejected_samples for end in ends),
+        lost_samples=sum(end.rejected_samples for end in ends if isinstance(end, Ended)),
         delay_margin_s=delay_margin_s(scenario),
         edges=tuple((tick, other, end.sysid, used) for end in ends for tick, other, used in end.edges),
     )

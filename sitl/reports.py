@@ -30,10 +30,11 @@ class Ended:
 
 @dataclass(frozen=True)
 class Failed:
-    """Last report of a vehicle that cannot go on, and why."""
+    """Last report of a vehicle that cannot go on, and why; with its edges as in `Ended`, if it fails as scheduled."""
 
     sysid: int
     reason: str
+    edges: tuple[tuple[int, int, bool], ...] = ()
 
 
 Report = Ready | Ended | Failed

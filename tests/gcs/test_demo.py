@@ -36,7 +36,7 @@ TIMING_KEYS = {"compile_s", "plan_s", "startup_s", "upload_s", "flight_wall_s", 
 
 
 def skein(*arguments: object) -> "subprocess.CompletedProcess[str]":
-    return subprocess.run([*SKEIN, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return subprocess.run([*SKEIN, *map(str, arguments)], capture_output=True, text=True, timeout=200)
 
 
 def wait_until(condition: Callable[[], Any], timeout_s: float = 60.0) -> Any:
@@ -190,6 +190,65 @@ def assert_same_flight(rehearsal: dict[str, Any], flight: dict[str, Any]) -> Non
     assert rehearsal["events"] == flight["events"]
     only = dict.fromkeys(("items_uploaded", "items_verified"))
     assert rehearsal["vehicles"] == [vehicle | only for vehicle in flight["vehicles"]]
+
+
+NETWORK = """
+[channel]
+jitter_s = 0.2
+loss = 0.15
+bursts = { every_s = 15.0, length_s = 2.0 }
+
+[[links]]
+from = 2
+to = 3
+delay_s = 0.36
+
+[[failures]]
+what = "split"
+at_s = 10.0
+for_s = 8.0
+groups = [[1, 2]]
+
+[[failures]]
+what = "freeze"
+at_s = 30.0
+for_s = 5.0
+vehicles = [3]
+
+[[failures]]
+what = "silence"
+at_s = 40.0
+for_s = 4.0
+
+[[failures]]
+what = "kill"
+at_s = 50.0
+vehicles = [2]
+"""
+
+
+def test_a_flight_of_lost_messages_and_failures_is_the_rehearsed_one_at_any_speed(
+    short_scenario: Path, tmp_path: Path
+) -> None:
+    scenario = tmp_path / "failing.toml"
+    text = short_scenario.read_text().replace('graph = "ring"', 'graph = "line"')
+    scenario.write_text(text.replace("[wind]", NETWORK + "\n[wind]"))
+    expected = rehearsed(scenario, "--out", tmp_path / "rehearsed")
+    flown = []
+    for speed in (0, 30):
+        result = skein("fly", tmp_path / "rehearsed", "--speed", speed, "--json")
+        assert result.returncode == 0, result.stderr
+        flown.append(json.loads(result.stdout))
+        assert flown[-1]["trajectory_sha256"] == expected["trajectory_sha256"]
+    killed, survivors = flown[0]["vehicles"][1], (flown[0]["vehicles"][0], flown[0]["vehicles"][2])
+    assert (killed["lost_s"], killed["completed"]) == (50.0, False)
+    assert all(vehicle["completed"] for vehicle in survivors)
+    graphs = [graph["edges"] for graph in flown[0]["graph"]]
+    assert [[1, 2], [2, 3]] in graphs, "a line at first"
+    assert [[1, 3]] in graphs, "mended when the one in the middle is gone"
+    known = [graph["t_s"] for graph in flown[0]["graph"] if [1, 3] in graph["edges"]]
+    assert min(known) > 50.0
+    assert expected["events"] == flown[0]["events"]
 
 
 def test_a_planned_run_is_flown_and_its_missions_exported(short_scenario: Path, tmp_path: Path) -> None:

@@ -30,7 +30,7 @@ KEYS = {
     "events": {"t_s", "sysid", "what"},
 }  # fmt: skip
 MORE_KEYS = {
-    "": {"arm", "limits"},
+    "": {"arm", "graph", "limits"},
     "vehicles": {"lost_s"},
     "formation": {"clearance_margin_m", "min_wall_m"},
 }
