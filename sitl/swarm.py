@@ -15,7 +15,7 @@ from missions.scenario import Scenario
 from sitl.child import Endpoint, EndpointProcess
 from sitl.config import Arm, VehicleConfig
 from sitl.endpoint import EndpointConfig
-from sitl.formation.law import Gains
+from sitl.formation.vehicle_gains import vehicle_gains
 from sitl.process import ProcessConfig
 from sitl.scenario_network import network_of
 from sitl.stands import stands
@@ -192,7 +192,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             steady_wind_m_s=wind.steady_m_s,
             forecast_wind_m_s=wind.forecast_m_s,
             gusts=wind.gusts,
-            gains=Gains(formation.k1, formation.k2, formation.k3, formation.k0),
+            gains=vehicle_gains(formation, stand.sysid),
             network=network,
             arm=options.arm,
         )

@@ -8,6 +8,7 @@ from gcs.cli.demo import demo
 from gcs.cli.download import download
 from gcs.cli.export import export
 from gcs.cli.fly import fly
+from gcs.cli.margin import margin
 from gcs.cli.orders import abort, arm, disarm, mode, rtl
 from gcs.cli.params import params
 from gcs.cli.plan import plan
@@ -27,7 +28,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-ON_THIS_MACHINE = (demo, plan, sim, fly, rehearse, export, replay, bench, reproduce)
+ON_THIS_MACHINE = (demo, plan, sim, fly, rehearse, export, replay, bench, margin, reproduce)
 WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)

@@ -42,6 +42,7 @@ def _network(scenario: Scenario) -> Iterator[str]:
     named: list[tuple[str, Sequence[int]]] = []
     if not isinstance(graph := scenario.formation.graph, str):
         named += [(f"formation.graph[{i}]", pair) for i, pair in enumerate(graph)]
+    named.append(("formation.pinned", scenario.formation.pinned or ()))
     named += [(f"links[{i}]", (link.sender, link.receiver)) for i, link in enumerate(scenario.links)]
     for i, failure in enumerate(scenario.failures):
         named.append((f"failures[{i}]", failure.vehicles))
@@ -52,7 +53,7 @@ def _network(scenario: Scenario) -> Iterator[str]:
     for key, sysids in named:
         if missing := sorted(set(sysids) - known):
             yield f"{key}: there is no vehicle {missing[0]}; the sysids are {min(known)} to {max(known)}"
-    for key, (one, other) in ((key, pair) for key, pair in named if key.startswith(("formation", "links"))):
+    for key, (one, other) in ((key, pair) for key, pair in named if key.startswith(("formation.graph", "links"))):
         if one == other:
             yield f"{key}: vehicle {one} with itself; name two vehicles"
 

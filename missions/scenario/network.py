@@ -21,8 +21,14 @@ class FormationModel(Keys):
     k2: NotNegative = 0.8
     k3: NotNegative = 0.4
     k0: NotNegative = 0.01
+    pinned: tuple[Sysid, ...] | None = None
+    """Vehicles with h_p = 1, the others have 0 and no k0; all unless given."""
     stale_s: Positive = 2.0
     """A sample that is older than its delay and jitter by so much counts no more: the edge is dropped."""
+
+    def is_pinned(self, sysid: int) -> bool:
+        """Whether h_p is 1."""
+        return self.pinned is None or sysid in self.pinned
 
 
 class BurstModel(Keys):

@@ -51,13 +51,25 @@ def neighbour_weights(sysid: int, graph: Sequence[Edge]) -> dict[int, float]:
     return {node: 1.0 / max(degree[sysid], degree[node]) for node in near}
 
 
-def laplacian(sysids: Sequence[int], graph: Sequence[Edge]) -> npt.NDArray[np.float64]:
-    """The weighted Laplacian D - A, (n, n), rows in order of sysid."""
+def laplacian(sysids: Sequence[int], graph: Sequence[Edge], *, unit_weights: bool = False) -> npt.NDArray[np.float64]:
+    """The weighted Laplacian D - A, (n, n), rows in order of sysid; with all weights 1 where that is asked for."""
     nodes = sorted(sysids)
     row = {node: i for i, node in enumerate(nodes)}
     matrix = np.zeros((len(nodes), len(nodes)))
     for node in nodes:
         for other, weight in neighbour_weights(node, graph).items():
-            matrix[row[node], row[other]] = -weight
-            matrix[row[node], row[node]] += weight
+            a_pq = 1.0 if unit_weights else weight
+            matrix[row[node], row[other]] = -a_pq
+            matrix[row[node], row[node]] += a_pq
     return matrix
+
+
+def parts(sysids: Sequence[int], graph: Sequence[Edge]) -> list[list[int]]:
+    """The vehicles that are joined by edges, part by part; one part when the graph is connected (lambda_2 > 0)."""
+    part = {node: {node} for node in sorted(sysids)}
+    for p, q in graph:
+        if part[p] is not part[q]:
+            part[p] |= part[q]
+            for node in part[q]:
+                part[node] = part[p]
+    return sorted(sorted(nodes) for nodes in {id(nodes): nodes for nodes in part.values()}.values())

@@ -42,6 +42,7 @@ TEXT = {name: read_scenario_text(name)[0] for name in ("mountains", "radars", "v
             r"vehicles\[3\]\.origin: 50 m from vehicles\[1\]'s, and both start together",
         ),
         ("vee", "behind_m = 106.07, left_m = 106.07", "behind_m = 20.0, left_m = 20.0", r"vehicles\[1\]\.slot: 28 m"),
+        ("radars", "k0 = 0.01", "k0 = 0.01\npinned = [1, 10]", r"formation\.pinned: there is no vehicle 10"),
         ("radars", "origin = [0.0, 10000.0, 0.0]\n", "", r"vehicles\[0\]: needs origin and target, or a slot"),
         ("vee", "[route]", "[other]", r"other: unknown key"),
         (
