@@ -72,9 +72,13 @@ class Routes(NamedTuple):
 
 
 class Law(NamedTuple):
-    """The formation law, and whether it is on (`plain` is the autopilot's airspeed hold)."""
+    """The formation law, and whether it is on (`plain` is the autopilot's airspeed hold).
 
-    gains: Gains
+    Attributes:
+        gains: (n, 4) rows of a `Gains`.
+    """
+
+    gains: FloatArray
     plain: bool
 
 
@@ -143,6 +147,8 @@ def fly_one(
     tables = tables_of(p, routes)
     circle = routes.circle[p]
     loiter = Loiter(circle[0], circle[1], circle[2], circle[3], circle[4])
+    own = law.gains[p]
+    gains = Gains(own[0], own[1], own[2], own[3])
     freezes = wiring.freeze[wiring.first_freeze[p] : wiring.first_freeze[p + 1]]
     epoch = 0
     for tick in range(start, min(end, wiring.death[p])):
@@ -189,14 +195,14 @@ def fly_one(
                         record.along_m[q, stamp],
                         record.along_rate_m_s[q, stamp],
                         weight * trust,
-                        law.gains,
+                        gains,
                     )
                 hearing.trust[link] = trusted(trust, used)
                 record.used[link, tick] = used
             if law.plain or not in_formation:
                 ahead = speed_acceleration(airspeed_at(point.s_m, tables.airspeeds), air.V)
             else:
-                ahead = formation_acceleration(errors, corrections, law.gains)
+                ahead = formation_acceleration(errors, corrections, gains)
             wanted = path_accelerations(errors, ahead, air.V, aircraft.airframe)
             flight = moved(flight, wanted, aircraft)
             if point.s_m >= routes.end_s_m[p]:
@@ -212,6 +218,7 @@ def fly_one(
             wanted = loiter_accelerations(position, velocity, air.V, stage[p, 3], now)
             wanted = speed_before_height(wanted, air.V, PLANNED_ROOM_M_S, aircraft.airframe)
             flight = moved(flight, wanted, aircraft)
+        record.thrust_n[p, tick] = flight.controls.thrust
     keep(flight, state[p])
 
 

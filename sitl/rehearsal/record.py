@@ -14,13 +14,15 @@ class Record(NamedTuple):
 
     Attributes:
         truth: (n, ticks, 6) as in `sitl.truth`.
+        thrust_n: (n, ticks) that the engine gave over the tick.
         in_formation: (n, ticks) whether it flew its schedule.
-        along_m, along_rate_m_s: (n, ticks) e and e'.
+        along_m, along_rate_m_s: (n, ticks) e and e'; the rate is NaN off the path.
         used: (links, ticks) whether the edge counted.
         arrived: (n,) tick at which the path's end was passed; -1 before.
     """
 
     truth: FloatArray
+    thrust_n: FloatArray
     in_formation: Flags
     along_m: FloatArray
     along_rate_m_s: FloatArray
@@ -32,9 +34,10 @@ def empty_record(vehicles: int, links: int, ticks: int) -> Record:
     """A record of nothing yet, with room for a number of ticks."""
     return Record(
         truth=np.empty((vehicles, ticks, 6)),
+        thrust_n=np.empty((vehicles, ticks)),
         in_formation=np.zeros((vehicles, ticks), dtype=np.bool_),
         along_m=np.empty((vehicles, ticks)),
-        along_rate_m_s=np.empty((vehicles, ticks)),
+        along_rate_m_s=np.full((vehicles, ticks), np.nan),
         used=np.zeros((links, ticks), dtype=np.bool_),
         arrived=np.full(vehicles, -1),
     )

@@ -34,18 +34,22 @@ class Flown:
         truth: by sysid: (ticks, 6) rows of x, y, h, V, gamma, chi, one a tick from tick 0.
         arrived: by sysid: the tick at which the end of the path was passed; None for who did not come so far.
         edges: changes of who makes use of whose corrections, in order.
+        along_rate_m_s: by sysid: (ticks,) e', how much faster than the schedule; NaN off the path.
+        thrust_n: by sysid: (ticks,) that the engine gave.
     """
 
     truth: dict[int, FloatArray]
     arrived: dict[int, int | None]
     edges: list[EdgeChange]
+    along_rate_m_s: dict[int, FloatArray]
+    thrust_n: dict[int, FloatArray]
 
 
 def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission]) -> Flown:
     """Fly a swarm's missions from a held start, as its endpoints would.
 
     Args:
-        vehicles: of the swarm, in order of sysid; all have one airframe, terrain, wind, law and network.
+        vehicles: of the swarm, in order of sysid; all have one airframe, terrain, wind, arm and network.
         missions: by sysid, waypoints and speeds with a loiter at the end.
 
     Raises:
@@ -54,8 +58,7 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
     first = vehicles[0]
     routes = routes_of(vehicles, missions)
     aircraft = make_aircraft(first.airframe, first.terrain.as_array(), first.gusts, first.steady_wind_m_s)
-    gains = first.gains if first.arm == "full" else first.gains._replace(k1=0.0, k2=0.0)
-    law = Law(gains, first.arm == "plain")
+    law = Law(gains_of(vehicles), first.arm == "plain")
     n, ticks = len(vehicles), int((routes.duration_s.max() + OVERTIME_S) / TICK_S)
     normals = np.empty((n, ticks, NORMALS_PER_TICK))
     for p, vehicle in enumerate(vehicles):
@@ -64,15 +67,23 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
     wiring = wiring_of(first.network)
     record = empty_record(n, len(wiring.sender), ticks)
     flown = compile_shared(fly_swarm)(routes, aircraft, wiring, law, normals, draws, record)
-    truth = {vehicle.sysid: record.truth[p, : min(flown, wiring.death[p])] for p, vehicle in enumerate(vehicles)}
+    rows = {vehicle.sysid: (p, slice(min(flown, wiring.death[p]))) for p, vehicle in enumerate(vehicles)}
     return Flown(
-        truth,
+        {sysid: record.truth[row] for sysid, row in rows.items()},
         {
             vehicle.sysid: int(tick) if tick >= 0 else None
             for vehicle, tick in zip(vehicles, record.arrived, strict=True)
         },
         edge_changes(record, first.network),
+        {sysid: record.along_rate_m_s[row] for sysid, row in rows.items()},
+        {sysid: record.thrust_n[row] for sysid, row in rows.items()},
     )
+
+
+def gains_of(vehicles: Sequence[VehicleConfig]) -> FloatArray:
+    """(n, 4) gains that each flies with: those of corrections are none in the arms that hear nobody."""
+    deaf = vehicles[0].arm != "full"
+    return np.array([vehicle.gains._replace(k1=0.0, k2=0.0) if deaf else vehicle.gains for vehicle in vehicles])
 
 
 def edge_changes(record: Record, network: Network) -> list[EdgeChange]:
