@@ -18,6 +18,7 @@ from gcs.cli.reproduce import reproduce
 from gcs.cli.signing import signing
 from gcs.cli.sim import sim
 from gcs.cli.status import status
+from gcs.cli.study import study
 from gcs.cli.upload import upload
 
 app = typer.Typer(

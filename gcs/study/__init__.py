@@ -1,0 +1,1 @@
+"""Studies: many rehearsed flights, and the linear law beside them, as tables and pictures."""
