@@ -11,18 +11,19 @@ from sitl.formation.network import Network
 from sitl.ticks import TICK_S, delay_ticks
 
 
-def network_of(scenario: Scenario, sysids: Sequence[int], delay_s: float) -> Network:
+def network_of(scenario: Scenario, sysids: Sequence[int], delay_s: float, shift: int = 0) -> Network:
     """The network of a scenario's vehicles.
 
     Args:
         scenario: whose formation, channel, links and failures count.
         sysids: of the vehicles that fly.
         delay_s: of the links that have none of their own; rounded up to whole ticks, at least one.
+        shift: what system ids are larger by than in the scenario.
     """
     formation, channel = scenario.formation, scenario.channel
     common = _channel(delay_s, channel.jitter_s, channel.loss, channel.bursts)
     links = {
-        (link.sender, link.receiver): _channel(
+        (link.sender + shift, link.receiver + shift): _channel(
             delay_s if link.delay_s is None else link.delay_s,
             channel.jitter_s if link.jitter_s is None else link.jitter_s,
             channel.loss if link.loss is None else link.loss,
@@ -30,12 +31,15 @@ def network_of(scenario: Scenario, sysids: Sequence[int], delay_s: float) -> Net
         )
         for link in scenario.links
     }
+    graph = formation.graph
+    if not isinstance(graph, str):
+        graph = tuple((p + shift, q + shift) for p, q in graph)
     return Network(
         sysids=tuple(sorted(sysids)),
-        graph=edges(formation.graph, sysids),
+        graph=edges(graph, sysids),
         channel=common,
         links=links,
-        failures=tuple(_failure(failure) for failure in scenario.failures),
+        failures=tuple(_failure(failure, shift) for failure in scenario.failures),
         stale_ticks=delay_ticks(formation.stale_s),
     )
 
@@ -54,11 +58,11 @@ def _channel(delay_s: float, jitter_s: float, loss: float, bursts: BurstModel | 
     )
 
 
-def _failure(failure: FailureModel) -> Failure:
+def _failure(failure: FailureModel, shift: int) -> Failure:
     start = round(failure.at_s / TICK_S)
     return Failure(
         failure.what,
-        frozenset(failure.vehicles),
-        tuple(frozenset(group) for group in failure.groups),
+        frozenset(sysid + shift for sysid in failure.vehicles),
+        tuple(frozenset(sysid + shift for sysid in group) for group in failure.groups),
         (start, FOR_EVER if failure.for_s is None else start + delay_ticks(failure.for_s)),
     )

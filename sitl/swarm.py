@@ -179,7 +179,8 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
     """What each vehicle of a scenario is told at its start."""
     formation, wind = scenario.formation, scenario.wind
     everyone = stands(scenario, options.count, options.sysid_base)
-    network = network_of(scenario, [stand.sysid for stand in everyone], options.delay_s)
+    shift = everyone[0].sysid - scenario.vehicles[0].sysid
+    network = network_of(scenario, [stand.sysid for stand in everyone], options.delay_s, shift)
     return [
         VehicleConfig(
             sysid=stand.sysid,
@@ -192,7 +193,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             steady_wind_m_s=wind.steady_m_s,
             forecast_wind_m_s=wind.forecast_m_s,
             gusts=wind.gusts,
-            gains=vehicle_gains(formation, stand.sysid),
+            gains=vehicle_gains(formation, stand.sysid - shift),
             network=network,
             arm=options.arm,
         )
