@@ -124,10 +124,7 @@ def draw_channels(scenario: str, points: Sequence[Point], delay_s: float, path: 
         grid[0, 2].minorticks_off()
         figure.align_ylabels()
         style.headline(figure, f"{scenario}: jitter, loss and bursts at a delay of {delay_s:g} s ({_flights(points)})")
-        handles = [
-            style.line_handle(f"{LOOKS[arm][0]}", color=LOOKS[arm][1])
-            for arm in ("full", "own_schedule")
-        ]
+        handles = [style.line_handle(f"{LOOKS[arm][0]}", color=LOOKS[arm][1]) for arm in ("full", "own_schedule")]
         figure.legend(handles=handles, loc="outside lower left", ncols=2)
 
 
