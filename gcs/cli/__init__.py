@@ -35,3 +35,4 @@ for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)
 app.add_typer(params)
 app.add_typer(signing)
+app.add_typer(study)

@@ -3,15 +3,15 @@
 import numpy as np
 import numpy.typing as npt
 
-from gcs.study.linear import Formation
 from sitl.formation.graph import Edge
+from sitl.formation.linear_formation import LinearFormation
 
 FloatArray = npt.NDArray[np.float64]
 
 FREQUENCIES_RAD_S = np.geomspace(1e-3, 30.0, 3000)
 
 
-def edge_gains(formation: Formation, delay_s: float, edges: list[Edge]) -> tuple[FloatArray, FloatArray]:
+def edge_gains(formation: LinearFormation, delay_s: float, edges: list[Edge]) -> tuple[FloatArray, FloatArray]:
     """The largest amplitudes, over all frequencies, of e_p - e_q and of e_p' - e_q' on each edge when the first vehicle
     is shaken by an acceleration of amplitude 1, (edges,) each: m and m/s per m/s^2.
 
@@ -20,10 +20,10 @@ def edge_gains(formation: Formation, delay_s: float, edges: list[Edge]) -> tuple
     Args:
         edges: pairs of rows.
     """
-    laplacian, gains, damping, pins = formation
+    damping, pins, gains = formation.damping(), formation.pins(), formation.gains
     s = 1j * FREQUENCIES_RAD_S[:, None, None]
     own = np.eye(len(damping)) * (s * s + damping * s + pins)
-    matrices = own + laplacian * ((gains.k2 * s + gains.k1) * np.exp(-s * delay_s))
+    matrices = own + formation.laplacian * ((gains.k2 * s + gains.k1) * np.exp(-s * delay_s))
     shaken = np.zeros((len(damping), 1))
     shaken[0] = 1.0
     errors = np.linalg.solve(matrices, shaken[None])[:, :, 0]

@@ -7,7 +7,7 @@ from typing import get_args
 
 from gcs.delay_margin import delay_margin_s
 from gcs.study.graphs import Graph
-from gcs.study.linear_sweep import PIN_ALL, PIN_ONE
+from gcs.study.linear_sweep import PIN_ALL, PIN_ONE, with_pins
 from gcs.study.trial import Trial, trial_of
 from missions.scenario import Scenario
 from missions.scenario.network import BurstModel, ChannelModel
@@ -72,12 +72,10 @@ def channel_trials(scenario: Scenario, seeds: Sequence[int]) -> list[Trial]:
 
 def pin_trials(scenario: Scenario, shares: Sequence[float], seeds: Sequence[int]) -> list[Trial]:
     """Curves (pinned,) over delay, s, on the scenario's graph: all pinned, and the first vehicle alone."""
-    first = min(vehicle.sysid for vehicle in scenario.vehicles)
-    pinned = {PIN_ALL: None, PIN_ONE: frozenset({first})}
     swept = dict.fromkeys(delays_s(delay_margin_s(scenario), shares))
     return [
-        replace(trial_of(with_graph(scenario, scenario.formation.graph, delay_s), (who,), delay_s, seed), pinned=h)
-        for who, h in pinned.items()
+        trial_of(with_pins(with_graph(scenario, scenario.formation.graph, delay_s), who), (who,), delay_s, seed)
+        for who in (PIN_ALL, PIN_ONE)
         for delay_s in swept
         for seed in seeds
     ]

@@ -1,16 +1,15 @@
 """The law (15) without its clips, in continuous time or tick by tick: how fast what disturbs a formation dies out.
 
-Each of n vehicles accelerates by e'' = -d e' - p e + c, the rows of c being -Lap (k1 e + k2 e')(t - tau).
+By simulation; what margins and modes say of it is in `sitl.formation`.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from missions.compiled import jit
-from sitl.formation.law import Gains
+from sitl.formation.linear_formation import LinearFormation
 from sitl.ticks import TICK_S
 
 FloatArray = npt.NDArray[np.float64]
@@ -21,50 +20,27 @@ WINDOWS = 40
 """What grows is scaled back after each; growth is that over the second half of them."""
 
 
-class Formation(NamedTuple):
-    """A formation as the law sees it.
-
-    Attributes:
-        laplacian: (n, n), weighted.
-        gains: k1 and k2 are those of all vehicles.
-        damping, pins: (n,) each vehicle's own k3 and k0.
-    """
-
-    laplacian: FloatArray
-    gains: Gains
-    damping: FloatArray
-    pins: FloatArray
-
-
-def flown_law(laplacian: FloatArray, gains: Gains, h: FloatArray) -> Formation:
-    """As flown: every vehicle has k3, and h_p switches k0."""
-    return Formation(laplacian, gains, np.full(len(h), gains.k3), gains.k0 * h)
-
-
-def bare_law(laplacian: FloatArray, gains: Gains, h: FloatArray) -> Formation:
-    """As in (15): h_p switches k3, and there is no k0."""
-    return Formation(laplacian, gains._replace(k0=0.0), gains.k3 * h, np.zeros(len(h)))
-
-
-def growth_rate(formation: Formation, delay_s: float, duration_s: float) -> float:
+def growth_rate(formation: LinearFormation, delay_s: float, duration_s: float) -> float:
     """The rate (1/s) at which a disturbance grows in continuous time, below 0 where it dies out, by simulation."""
     return _rate(formation, delay_s / STEPS_A_DELAY, STEPS_A_DELAY, duration_s, held=False)
 
 
-def growth_rate_sampled(formation: Formation, delay_ticks: int, duration_s: float) -> float:
+def growth_rate_sampled(formation: LinearFormation, delay_ticks: int, duration_s: float) -> float:
     """The same with the law computed once a tick, and held over it."""
     return _rate(formation, TICK_S, delay_ticks, duration_s, held=True)
 
 
-def _rate(formation: Formation, step_s: float, delay_steps: int, duration_s: float, *, held: bool) -> float:
-    laplacian, gains, damping, pins = formation
+def _rate(formation: LinearFormation, step_s: float, delay_steps: int, duration_s: float, *, held: bool) -> float:
+    damping, pins, gains = formation.damping(), formation.pins(), formation.gains
     n = len(damping)
     window = math.ceil(duration_s / step_s / WINDOWS)
     start = np.random.default_rng(1).standard_normal(n)
     # The mean hears nothing. Where it goes its own way, it is no matter of the delay.
     mean = float(np.ptp(damping) == 0.0 and np.ptp(pins) == 0.0)
     levels = np.empty(WINDOWS)
-    _simulate(laplacian, gains.k1, gains.k2, damping, pins, start, step_s, delay_steps, window, mean, held, levels)
+    _simulate(
+        formation.laplacian, gains.k1, gains.k2, damping, pins, start, step_s, delay_steps, window, mean, held, levels
+    )
     half = WINDOWS // 2
     return float((levels[-1] - levels[half - 1]) / ((WINDOWS - half) * window * step_s))
 

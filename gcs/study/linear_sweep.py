@@ -1,21 +1,14 @@
 """The linear law on several graphs: growth of a disturbance over delay, and the margins that it is held against."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-
-import numpy as np
-import numpy.typing as npt
 
 from gcs.study.amplification import edge_gains
 from gcs.study.graphs import Graph
-from gcs.study.linear import Formation, bare_law, flown_law, growth_rate, growth_rate_sampled
+from gcs.study.linear import growth_rate, growth_rate_sampled
 from missions.scenario import Scenario
-from sitl.formation.graph import edges, laplacian
-from sitl.formation.law import Gains
-from sitl.formation.margin import aircraft_margin_s, continuous_margin_s
+from sitl.formation.linear_formation import LinearFormation, linear_formation
+from sitl.formation.margin import Level, margin_s, mode_margins
 from sitl.ticks import TICK_S
-
-FloatArray = npt.NDArray[np.float64]
 
 BARE, FLOWN, TICKS = "bare", "flown", "flown, ticks"
 PIN_ALL, PIN_ONE = "all", "one"
@@ -51,45 +44,19 @@ class Growth:
         return self.delay_s / self.margin_s
 
 
-def scenario_gains(scenario: Scenario) -> Gains:
-    """The formation's."""
-    formation = scenario.formation
-    return Gains(formation.k1, formation.k2, formation.k3, formation.k0)
-
-
-def laplacian_of(scenario: Scenario, graph: Graph, *, unit: bool = False) -> FloatArray:
-    """Weighted as flown, or with unit weights; rows in order of sysid."""
-    sysids = [vehicle.sysid for vehicle in scenario.vehicles]
-    matrix = laplacian(sysids, edges(graph, sysids))
-    if unit:
-        matrix = -(matrix < 0.0).astype(np.float64)
-        matrix -= np.diag(matrix.sum(axis=1))
-    return matrix
-
-
-def continuous_margin(formation: Formation) -> float:
-    """The least delay at which some mode swings for ever; of a formation whose vehicles are all alike."""
-    gains = formation.gains._replace(k3=float(formation.damping[0]), k0=float(formation.pins[0]))
-    modes = np.linalg.eigvalsh(formation.laplacian)
-    return min(continuous_margin_s(mode, gains) for mode in modes if mode > 1e-9)
-
-
 def growths(scenario: Scenario, name: str, graph: Graph) -> list[Growth]:
     """Both laws over delays on both sides of their margins, and the one flown in ticks as well."""
-    everyone = np.ones(len(scenario.vehicles))
-    gains = scenario_gains(scenario)
-    bare = bare_law(laplacian_of(scenario, graph, unit=True), gains, everyone)
-    flown = flown_law(laplacian_of(scenario, graph), gains, everyone)
+    bare, flown = (_formation(scenario, graph, bare=bare) for bare in (True, False))
     found = []
     for law, formation in ((BARE, bare), (FLOWN, flown)):
-        margin_s = continuous_margin(formation)
+        margin = _margin_s(scenario, formation, "continuous")
         for share in SHARES:
-            rate = growth_rate(formation, share * margin_s, duration_s(margin_s))
-            found.append(Growth(name, law, share * margin_s, margin_s, rate))
-    margin_s = aircraft_margin_s(flown.laplacian, flown.gains, 0.0, TICK_S)
-    for ticks in sorted({max(1, round(share * margin_s / TICK_S)) for share in SHARES}):
-        rate = growth_rate_sampled(flown, ticks, duration_s(margin_s))
-        found.append(Growth(name, TICKS, ticks * TICK_S, margin_s, rate))
+            rate = growth_rate(formation, share * margin, duration_s(margin))
+            found.append(Growth(name, law, share * margin, margin, rate))
+    margin = _margin_s(scenario, flown, "sampled")
+    for ticks in sorted({max(1, round(share * margin / TICK_S)) for share in SHARES}):
+        rate = growth_rate_sampled(flown, ticks, duration_s(margin))
+        found.append(Growth(name, TICKS, ticks * TICK_S, margin, rate))
     return found
 
 
@@ -98,22 +65,24 @@ def duration_s(margin_s: float) -> float:
     return max(LEAST_DURATION_S, DURATION_DELAYS * margin_s)
 
 
-def pins(scenario: Scenario) -> Mapping[str, FloatArray]:
-    """h_p of all vehicles, and of the first alone, in order of sysid."""
-    n = len(scenario.vehicles)
-    return {PIN_ALL: np.ones(n), PIN_ONE: np.eye(n)[0]}
+def with_pins(scenario: Scenario, who: str) -> Scenario:
+    """The scenario with all vehicles pinned, or the first in order of sysid alone."""
+    first = min(vehicle.sysid for vehicle in scenario.vehicles)
+    changes = {"pinned": None if who == PIN_ALL else (first,)}
+    return scenario.model_copy(update={"formation": scenario.formation.model_copy(update=changes)})
 
 
 def pin_growths(scenario: Scenario) -> list[Growth]:
     """The law as flown on the scenario's graph, with all pinned and with one; the margin is that of all."""
-    matrix, gains = laplacian_of(scenario, scenario.formation.graph), scenario_gains(scenario)
-    margin_s = continuous_margin(flown_law(matrix, gains, np.ones(len(matrix))))
-    return [
-        Growth("", pinned, share * margin_s, margin_s, growth_rate(formation, share * margin_s, duration_s(margin_s)))
-        for pinned, h in pins(scenario).items()
-        for formation in [flown_law(matrix, gains, h)]
-        for share in SHARES
-    ]
+    found = []
+    graph = scenario.formation.graph
+    margin = _margin_s(scenario, _formation(with_pins(scenario, PIN_ALL), graph), "continuous")
+    for who in (PIN_ALL, PIN_ONE):
+        formation = _formation(with_pins(scenario, who), graph)
+        for share in SHARES:
+            rate = growth_rate(formation, share * margin, duration_s(margin))
+            found.append(Growth("", who, share * margin, margin, rate))
+    return found
 
 
 @dataclass(frozen=True)
@@ -138,12 +107,24 @@ LINE_SHARES = (0.2, 0.5, 0.9, 0.95)
 
 def amplifications(scenario: Scenario) -> list[Amplification]:
     """Along a line of the scenario's vehicles, with the law as flown."""
-    matrix, gains = laplacian_of(scenario, "line"), scenario_gains(scenario)
-    margin_s = continuous_margin(flown_law(matrix, gains, np.ones(len(matrix))))
-    chain = [(row, row + 1) for row in range(len(matrix) - 1)]
+    sysids = [vehicle.sysid for vehicle in scenario.vehicles]
+    chain = [(row, row + 1) for row in range(len(sysids) - 1)]
+    margin = _margin_s(scenario, _formation(with_pins(scenario, PIN_ALL), "line"), "continuous")
     found = []
-    for pinned, h in pins(scenario).items():
+    for who in (PIN_ALL, PIN_ONE):
+        formation = _formation(with_pins(scenario, who), "line")
         for share in LINE_SHARES:
-            errors, speeds = edge_gains(flown_law(matrix, gains, h), share * margin_s, chain)
-            found.append(Amplification(pinned, share, tuple(errors.tolist()), tuple(speeds.tolist())))
+            errors, speeds = edge_gains(formation, share * margin, chain)
+            found.append(Amplification(who, share, tuple(errors.tolist()), tuple(speeds.tolist())))
     return found
+
+
+def _formation(scenario: Scenario, graph: Graph, *, bare: bool = False) -> LinearFormation:
+    """The scenario's vehicles on a graph, with the law as flown or the bare one with unit weights and no pin k0."""
+    changes: dict[str, object] = {"graph": graph, **({"k0": 0.0} if bare else {})}
+    sysids = [vehicle.sysid for vehicle in scenario.vehicles]
+    return linear_formation(scenario.formation.model_copy(update=changes), sysids, bare=bare)
+
+
+def _margin_s(scenario: Scenario, formation: LinearFormation, level: Level) -> float:
+    return margin_s(mode_margins(formation, scenario.airframe.airframe()), level)

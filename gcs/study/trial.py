@@ -1,6 +1,6 @@
 """One flight of a study: what it changes of the scenario, and what comes of it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -33,7 +33,6 @@ class Trial:
         seed: of gusts and channels.
         formation, channel, failures, gusts: in place of the scenario's.
         arm: how much of the law is on.
-        pinned: who has h_p = 1; None for all.
     """
 
     curve: tuple[str, ...]
@@ -44,7 +43,6 @@ class Trial:
     failures: tuple[FailureModel, ...]
     gusts: str
     arm: Arm = "full"
-    pinned: frozenset[int] | None = None
 
 
 def trial_of(scenario: Scenario, curve: tuple[str, ...], level: float, seed: int, arm: Arm = "full") -> Trial:
@@ -99,7 +97,7 @@ def fly_trial(scenario: Scenario, plan: FormationPlan, planned: Planned, trial: 
         }
     )
     options = SwarmOptions(trial.seed, trial.formation.delay_s, trial.arm)
-    vehicles = [_pinned(config, trial.pinned) for config in vehicle_configs(changed, options)]
+    vehicles = vehicle_configs(changed, options)
     return measured(rehearse(vehicles, plan.missions), changed, vehicles, planned)
 
 
@@ -130,12 +128,6 @@ def measured(flown: Flown, scenario: Scenario, vehicles: list[VehicleConfig], pl
         arrived=len(arrived),
         last_s=max(arrived, default=None),
     )
-
-
-def _pinned(config: VehicleConfig, pinned: frozenset[int] | None) -> VehicleConfig:
-    if pinned is None or config.sysid in pinned:
-        return config
-    return replace(config, gains=config.gains._replace(k0=0.0))
 
 
 def _positions(flown: Flown, sysids: list[int]) -> FloatArray:
