@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import math
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Coroutine
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -18,7 +18,7 @@ from gcs.tlog import TelemetryLog
 from gcs.transfers.command import arm, set_mode
 from gcs.transfers.plans import upload_and_verify
 from gcs.vehicle_link import VehicleLink
-from gcs.watch import Display, VehicleStatus, watch_flight
+from gcs.watch import Announce, Display, VehicleStatus, watch_flight
 from missions.errors import InputError
 from missions.plan_type import PlanType
 from missions.scenario import Scenario
@@ -47,17 +47,15 @@ class FlightOptions:
         delay_s: of the corrections; rounded up to whole ticks.
         arm: how much of the formation law is on.
         speed: factor of simulated time; infinite for as fast as it goes.
+        real_time: the clock is the wall's, and nobody waits for anybody; in lockstep otherwise.
         per_process: vehicles that share a process; None chooses.
     """
 
     delay_s: float
     arm: Arm = "full"
     speed: float = math.inf
+    real_time: bool = False
     per_process: int | None = None
-
-
-Announce = Callable[[str], None]
-"""Called with each step of a flight, for people to read."""
 
 
 async def fly(
@@ -104,12 +102,13 @@ async def fly(
 
         announce("Releasing the clock")
         began = time.monotonic()
-        events, lost = await _fly_held(scenario, plan, swarm, fleet, display)
+        events, lost = await _fly_held(scenario, plan, swarm, fleet, display, announce, options.real_time)
         flight_wall_s = time.monotonic() - began
 
     for line in fleet.complaints():
         announce(line)
-    ends = [endpoint.last for endpoint in swarm.endpoints.values() if endpoint.last is not None]
+    last = [endpoint.last for endpoint in swarm.endpoints.values() if endpoint.last is not None]
+    ends = [report for report in last if isinstance(report, Ended)]
     flight_sim_s = max(vehicle.simulated_ms for vehicle in vehicles) / 1000.0
     return FlightRecord(
         seed=plan.seed,
@@ -128,10 +127,11 @@ async def fly(
         ),
         events=tuple(events),
         lost=lost,
-        late_samples=0,  # in lockstep a vehicle waits for what it needs
-        lost_samples=sum(end.rejected_samples for end in ends if isinstance(end, Ended)),
         delay_margin_s=delay_margin_s(scenario),
-        edges=tuple((tick, other, end.sysid, used) for end in ends for tick, other, used in end.edges),
+        links=tuple(link for end in ends for link in end.links),
+        real_time=options.real_time,
+        behind_s=max((end.behind_s for end in ends), default=0.0),
+        edges=tuple((tick, other, end.sysid, used) for end in last for tick, other, used in end.edges),
     )
 
 
@@ -141,6 +141,7 @@ def _swarm_options(plan: FormationPlan, run: RunFolder, options: FlightOptions, 
         delay_s=options.delay_s,
         arm=options.arm,
         speed=options.speed,
+        real_time=options.real_time,
         stations=((LOOPBACK, port),),
         truth=run.truth,
         per_process=options.per_process,
@@ -166,7 +167,13 @@ async def _arm_in_auto(vehicle: VehicleLink) -> None:
 
 
 async def _fly_held(
-    scenario: Scenario, plan: FormationPlan, swarm: Swarm, fleet: Fleet, display: Display
+    scenario: Scenario,
+    plan: FormationPlan,
+    swarm: Swarm,
+    fleet: Fleet,
+    display: Display,
+    announce: Announce,
+    real_time: bool,
 ) -> tuple[list[Event], dict[int, float]]:
     """Release the clocks, watch, and stop them; returns the events and when each lost vehicle was lost."""
     references = plan.references(scenario)
@@ -175,8 +182,8 @@ async def _fly_held(
     ]
     with open_session(swarm.station_peer) as session:
         clock = SwarmClock(session, swarm.name, swarm.endpoints)
-        await asyncio.to_thread(clock.release, swarm.endpoints)
-        events = await watch_flight(statuses, fleet.vehicles, swarm.endpoints, display, fleet.check)
+        await asyncio.to_thread(clock.start if real_time else clock.release, swarm.endpoints)
+        events = await watch_flight(statuses, fleet.vehicles, swarm.endpoints, display, fleet.check, announce)
         lost = {status.sysid: status.time_s for status in statuses if status.lost is not None}
         with contextlib.suppress(InputError):  # who does not answer is ended with the swarm
             await asyncio.to_thread(clock.stop, swarm.endpoints.keys() - lost.keys())

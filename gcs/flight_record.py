@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from sitl.config import Arm
 from sitl.formation.graph import EdgeChange
+from sitl.formation.link_report import LinkReport
 
 
 @dataclass(frozen=True)
@@ -49,10 +50,11 @@ class FlightRecord:
         timing: how long things took.
         events: in order of time.
         lost: when a vehicle was lost, by sysid; simulated time in seconds.
-        late_samples: corrections that a vehicle needed and did not have.
-        lost_samples: corrections that a vehicle could not use.
         delay_margin_s: the `aircraft` margin of the formation; infinite when any delay is stable.
         edges: changes of who makes use of whose corrections; a lost vehicle's own are not known.
+        links: what came of the links, as their receivers counted; a lost vehicle's own are not known.
+        real_time: whether the clock was the wall's; in lockstep otherwise.
+        behind_s: wall time by which a vehicle fell behind that clock, at the most.
     """
 
     seed: int
@@ -63,7 +65,8 @@ class FlightRecord:
     timing: Timing
     events: tuple[Event, ...]
     lost: Mapping[int, float]
-    late_samples: int
-    lost_samples: int
     delay_margin_s: float
     edges: tuple[EdgeChange, ...] = ()
+    links: tuple[LinkReport, ...] = ()
+    real_time: bool = False
+    behind_s: float = 0.0

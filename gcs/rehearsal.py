@@ -80,8 +80,6 @@ def rehearse_plan(
         ),
         events=tuple(Event(t_s, sysid, f"lost: vehicle {sysid}: {KILLED}") for sysid, t_s in lost.items()),
         lost=lost,
-        late_samples=0,
-        lost_samples=0,
         delay_margin_s=delay_margin_s(scenario),
         edges=tuple(flown.edges),
     )

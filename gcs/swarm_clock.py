@@ -2,6 +2,7 @@
 
 import json
 import queue
+import time
 from collections.abc import Iterable
 
 import zenoh
@@ -10,6 +11,8 @@ from missions.errors import InputError
 from sitl.zenoh_session import alive_key, clock_key, sysid_of
 
 TIMEOUT_S = 5.0
+START_IN_S = 0.5
+"""Time for the word of the start to reach every vehicle."""
 
 
 class SwarmClock:
@@ -44,9 +47,13 @@ class SwarmClock:
         """Let the clocks of these vehicles go on.
 
         Raises:
-            InputError: some of them did not answer.
+            InputError: some of them did not answer, or refused.
         """
         self._ask({"do": "release"}, sysids)
+
+    def start(self, sysids: Iterable[int], at_s: float | None = None) -> None:
+        """Release the clocks of these vehicles to one moment, UNIX time; None for soon. Raises as `release`."""
+        self._ask({"do": "release", "at": time.time() + START_IN_S if at_s is None else at_s}, sysids)
 
     def hold(self, sysids: Iterable[int]) -> None:
         """Let the clocks of these vehicles stand still. Raises as `release`."""
@@ -72,6 +79,8 @@ class SwarmClock:
         for reply in replies:
             if reply.ok is not None:
                 waiting.discard(json.loads(reply.ok.payload.to_bytes())["sysid"])
+            elif reply.err is not None:
+                raise InputError(reply.err.payload.to_bytes().decode("utf-8", "replace"))
             if not waiting:
                 return
         if waiting:

@@ -16,8 +16,10 @@ from sitl.modes import Mode
 PERIOD_S = 0.1
 OVERTIME_S = 120.0
 """A vehicle that has not arrived so long after its plan, in simulated time, is waited for no longer."""
+SILENT_S = 10.0
+"""A vehicle that has not been heard for so long, in wall time, is named: in lockstep the swarm waits for it."""
 STALL_S = 30.0
-"""Nor is a swarm whose simulated time has stood still for so long, in wall time."""
+"""A swarm whose simulated time has stood still for so long, in wall time, is waited for no longer."""
 
 
 @dataclass
@@ -29,6 +31,7 @@ class VehicleStatus:
         items: of its mission.
         time_s: newest simulated time heard of.
         arrived_s: when it was first heard of at the end of its mission, simulated time; NaN before.
+        silent: it has been named as not answering.
         lost: why it was lost; None if it was not.
     """
 
@@ -43,6 +46,7 @@ class VehicleStatus:
     altitude_m: float = 0.0
     cross_track_m: float = 0.0
     arrived_s: float = math.nan
+    silent: bool = False
     lost: str | None = None
 
     @property
@@ -65,6 +69,8 @@ class VehicleStatus:
                 self.arrived_s = self.time_s
 
 
+Announce = Callable[[str], None]
+"""Called with each step of a flight, and with what goes wrong in it, for people to read."""
 Display = Callable[[list[VehicleStatus]], None]
 
 
@@ -74,6 +80,7 @@ async def watch_flight(
     endpoints: Mapping[int, Endpoint],
     display: Display,
     check: Callable[[], None],
+    announce: Announce,
 ) -> list[Event]:
     """Watch until every vehicle has arrived or was lost, or it is no use to wait longer.
 
@@ -82,6 +89,7 @@ async def watch_flight(
         links, endpoints: of the vehicles, by sysid.
         display: called ten times a second with the statuses.
         check: called as often; raises when it is no use to go on.
+        announce: called with who falls silent, and who answers again.
 
     Returns:
         What happened, in order.
@@ -91,7 +99,7 @@ async def watch_flight(
     while True:
         for status in statuses:
             if status.lost is None:
-                events.extend(_news(status, links[status.sysid], endpoints[status.sysid]))
+                events.extend(_news(status, links[status.sysid], endpoints[status.sysid], announce))
         display(statuses)
         check()
         left = [status for status in statuses if status.lost is None]
@@ -106,17 +114,28 @@ async def watch_flight(
             events.extend(Event(status.time_s, status.sysid, "did not arrive in time") for status in late)
             return events
         if time.monotonic() - moved_at > STALL_S:
-            # In lockstep all wait for the one that stands still: it is the one that is farthest behind.
+            # In lockstep all wait for the one that stands still. If all answer it is one that is farthest behind.
             behind_s = min(status.time_s for status in left)
-            silent = [status for status in left if status.time_s == behind_s]
-            events.extend(Event(status.time_s, status.sysid, f"silent for {STALL_S:g} s") for status in silent)
+            awaited = [status for status in left if status.silent] or [s for s in left if s.time_s == behind_s]
+            events.extend(Event(status.time_s, status.sysid, f"stood still for {STALL_S:g} s") for status in awaited)
             return events
         await asyncio.sleep(PERIOD_S)
 
 
-def _news(status: VehicleStatus, link: VehicleLink, endpoint: Endpoint) -> Iterator[Event]:
+def _news(status: VehicleStatus, link: VehicleLink, endpoint: Endpoint, announce: Announce) -> Iterator[Event]:
     """Bring one vehicle's status up to date; what has happened to it since."""
     status.update(link)
     status.lost = endpoint.obituary()
     if status.lost is not None:
         yield Event(status.time_s, status.sysid, f"lost: {status.lost}")
+    elif not status.silent and link.silent_s > SILENT_S:
+        status.silent = True
+        yield _told(status, f"has not answered for {SILENT_S:g} s", announce)
+    elif status.silent and link.heard:
+        status.silent = False
+        yield _told(status, "answers again", announce)
+
+
+def _told(status: VehicleStatus, what: str, announce: Announce) -> Event:
+    announce(f"vehicle {status.sysid} {what}")
+    return Event(status.time_s, status.sysid, what)

@@ -22,15 +22,22 @@ class Clock:
     Args:
         held: start held, at tick 0.
         speed: simulated seconds a wall second; infinite for as fast as it goes.
+        real_time: it is the wall's clock, `speed` times as fast: once released it keeps to it, whatever falls behind,
+            and can neither be held nor paced.
+
+    Attributes:
         on_stop: called once, from the thread that stops the clock.
+        most_behind_s: wall time by which a tick of a clock in real time has begun too late, at the most.
     """
 
-    def __init__(self, *, held: bool, speed: float, on_stop: Callable[[], None]) -> None:
+    def __init__(self, *, held: bool, speed: float, real_time: bool = False) -> None:
         self.held = held
         self.speed = speed
+        self.most_behind_s = 0.0
+        self._real_time = real_time
         self.stopped = False
         self.tick = 0
-        self._on_stop = on_stop
+        self.on_stop: Callable[[], None] = lambda: None
         self._changed = threading.Condition()
         self._anchor: tuple[int, float] | None = None
 
@@ -65,27 +72,49 @@ class Clock:
             self._anchor = (tick, now)
         start_tick, start = self._anchor
         early = start + (tick - start_tick) * TICK_S / self.speed - now
-        if early < -MOST_BEHIND_S:
+        if self._real_time:
+            self.most_behind_s = max(self.most_behind_s, -early)
+        elif early < -MOST_BEHIND_S:
             self._anchor = (tick, now)
         return early
 
+    def now_ticks(self) -> float:
+        """The simulated time that it is now, in ticks, whatever tick has begun; for a clock that is paced."""
+        if self._anchor is None:
+            return float(self.tick)
+        start_tick, start = self._anchor
+        return start_tick + (time.monotonic() - start) * self.speed / TICK_S
+
     def hold(self) -> None:
-        """Stand still before the next tick."""
+        """Stand still before the next tick. Raises ValueError in real time."""
+        if self._real_time:
+            raise ValueError("in real time the clock is the wall's, which nobody holds")
         self._set(held=True)
 
-    def release(self) -> None:
-        """Go on."""
-        self._set(held=False)
+    def release(self, at_s: float | None = None) -> None:
+        """Go on.
+
+        Args:
+            at_s: when the next tick is to begin, UNIX time, so that it is one moment for all; None for at once.
+        """
+        if at_s is not None and not math.isfinite(at_s):
+            raise ValueError(f"a clock is released at a moment, got {at_s}")
+        if not self.held:
+            return
+        start = None if at_s is None else (self.tick, time.monotonic() + at_s - time.time())
+        self._set(held=False, _anchor=start)
 
     def pace(self, speed: float) -> None:
-        """Change the speed factor, > 0; infinite for as fast as it goes."""
+        """Change the speed factor, > 0; infinite for as fast as it goes. Raises ValueError in real time."""
+        if self._real_time:
+            raise ValueError("in real time the clock is the wall's, and has the speed that it began with")
         self._set(speed=speed, _anchor=None)
 
     def stop(self) -> None:
         """End, at whatever tick."""
         if not self.stopped:
             self._set(stopped=True)
-            self._on_stop()
+            self.on_stop()
 
     def _set(self, **values: Any) -> None:
         with self._changed:
@@ -98,7 +127,7 @@ def serve_clock(session: zenoh.Session, swarm: str, sysids: Callable[[], Iterabl
     """Answer queries on the swarm's clock key with the state of each vehicle, or an error that says what was wrong.
 
     A query's payload is JSON: {"do": "hold" | "release" | "stop" | "state"}, and {"speed": number}, where 0 means as
-    fast as it goes.
+    fast as it goes; with "release", {"at": UNIX time} names the moment at which the next tick begins.
 
     Args:
         session: open.
@@ -133,4 +162,7 @@ def _obey(clock: Clock, request: Any) -> None:
         return
     if action not in ("hold", "release", "stop"):
         raise ValueError(f"no action {action!r}; there are hold, release, stop and state")
-    getattr(clock, action)()
+    if action == "release" and "at" in request:
+        clock.release(float(request["at"]))
+    else:
+        getattr(clock, action)()

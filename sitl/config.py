@@ -29,6 +29,7 @@ class VehicleConfig:
         gains: of the formation law.
         network: of its swarm.
         arm: how much of the law is on.
+        real_time: nobody waits for anybody; in lockstep otherwise.
     """
 
     sysid: int
@@ -44,3 +45,4 @@ class VehicleConfig:
     gains: Gains
     network: Network
     arm: Arm
+    real_time: bool = False

@@ -10,6 +10,7 @@ from sitl.config import VehicleConfig
 from sitl.events import StatusText
 from sitl.formation.correction import Correction
 from sitl.formation.failures import FOR_EVER
+from sitl.formation.link_report import LinkReport
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
 from sitl.services.signing import Signing
@@ -106,6 +107,13 @@ class Endpoint:
             for sysid in sorted(self._vehicle.lose(lost) - self.delays.keys()):
                 self._vehicle.report(StatusText(SEVERITY_NOTICE, f"Vehicle {sysid} is a neighbour now"))
                 self.delays |= self._delays_of([sysid])
+
+    def know(self, links: tuple[LinkReport, ...], wrong: Iterable[str]) -> None:
+        """Tell the stations what has come of the links to it, and what is newly wrong with them, a line each."""
+        with self._vehicle.lock:
+            self._vehicle.links = links
+            for line in wrong:
+                self._vehicle.report(StatusText(SEVERITY_WARNING, line))
 
     def edges(self) -> tuple[tuple[int, int, bool], ...]:
         """(tick, neighbour, whether its edge counted from then on), of each change so far."""

@@ -92,7 +92,7 @@ class Pilot:
         self._powerless = self._aircraft._replace(airframe=config.airframe._replace(static_thrust_n=0.0))
         self._normals = normals(config.seed, config.sysid, Stream.GUSTS, NORMALS_PER_TICK)
         self._gains = config.gains if config.arm == "full" else config.gains._replace(k1=0.0, k2=0.0)
-        self.formation = Formation(config.sysid, config.network, config.seed)
+        self.formation = Formation(config.sysid, config.network, config.seed, real_time=config.real_time)
         self._frozen = config.network.frozen(config.sysid)
         self._own: deque[Correction] = deque(maxlen=self.formation.remembers_ticks)
         self._corrections = 0.0

@@ -4,7 +4,7 @@ import contextlib
 import math
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
@@ -16,11 +16,14 @@ from sitl.crew import Crew, reason
 from sitl.ending import Ending
 from sitl.endpoint import Endpoint, EndpointConfig
 from sitl.formation.exchange import Exchange
+from sitl.formation.live_exchange import LiveExchange
 from sitl.reports import Ended, Failed, Ready
 from sitl.serving import serving
 from sitl.zenoh_session import Peer, alive_key, discard_sockets, open_session
 
 NEIGHBOURS_TIMEOUT_S = 30.0
+KNOWN_TICKS = 25
+"""How often vehicles are told what has come of their links."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,7 @@ class ProcessConfig:
         peer: where its Zenoh session listens and connects.
         held: whether its clock starts held.
         speed: factor of its clock; infinite for as fast as it goes.
+        real_time: its clock is the wall's, and it waits for nobody.
     """
 
     endpoints: tuple[EndpointConfig, ...]
@@ -40,6 +44,7 @@ class ProcessConfig:
     peer: Peer
     held: bool
     speed: float = math.inf
+    real_time: bool = False
 
 
 def run_process(config: ProcessConfig, reports: Connection) -> None:
@@ -69,16 +74,11 @@ class _NotOpenedError(Exception):
 
 
 def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
-    with open_session(config.peer) as session:
+    with open_session(config.peer, real_time=config.real_time) as session:
         endpoints = list(_opened(config.endpoints))
-        deaths = config.endpoints[0].vehicle.network.deaths
-        exchange = Exchange(
-            session,
-            config.swarm,
-            {endpoint.sysid: endpoint.delays for endpoint in endpoints},
-            {sysid: tick - 1 for sysid, tick in deaths.items()},
-        )
-        clock = Clock(held=config.held, speed=config.speed, on_stop=exchange.stop)
+        clock = Clock(held=config.held, speed=config.speed, real_time=config.real_time)
+        exchange = _exchange(config, session, endpoints, clock)
+        clock.on_stop = exchange.stop
         ending.stop = clock.stop
         alive: dict[int, zenoh.LivelinessToken] = {}
 
@@ -105,8 +105,17 @@ def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
                 crew.leave(endpoint, error)
         for endpoint in crew.flying.values():
             alive[endpoint.sysid].undeclare()
-            rejected = sum(exchange.rejected[neighbour] for neighbour in endpoint.delays)
-            crew.report(Ended(endpoint.sysid, endpoint.tick, rejected, endpoint.edges()))
+            links = exchange.reports(endpoint.sysid)
+            crew.report(Ended(endpoint.sysid, endpoint.tick, links, clock.most_behind_s, endpoint.edges()))
+
+
+def _exchange(config: ProcessConfig, session: zenoh.Session, endpoints: Sequence[Endpoint], clock: Clock) -> Exchange:
+    vehicle = config.endpoints[0].vehicle
+    delays = {endpoint.sysid: endpoint.delays for endpoint in endpoints}
+    if config.real_time:
+        return LiveExchange(session, config.swarm, delays, vehicle.network, vehicle.seed, clock.now_ticks)
+    last_ticks = {sysid: tick - 1 for sysid, tick in vehicle.network.deaths.items()}
+    return Exchange(session, config.swarm, delays, last_ticks)
 
 
 def _opened(configs: tuple[EndpointConfig, ...]) -> Iterator[Endpoint]:
@@ -144,6 +153,8 @@ def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) ->
                     endpoint.notice(now_lost, lost)
                     exchange.listen(endpoint.sysid, endpoint.delays)
                 endpoint.advance(exchange.heard_by(endpoint.sysid))
+                if tick % KNOWN_TICKS == 0:
+                    endpoint.know(exchange.reports(endpoint.sysid), exchange.complaints(endpoint.sysid))
             except Exception as error:
                 crew.leave(endpoint, error)
         lost = now_lost

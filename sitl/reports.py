@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from sitl.formation.link_report import LinkReport
+
 
 @dataclass(frozen=True)
 class Ready:
@@ -18,13 +20,15 @@ class Ended:
 
     Attributes:
         tick: at which.
-        rejected_samples: messages that were no samples.
+        links: what came of those to it.
+        behind_s: wall time by which its clock has fallen behind at the most, in real time.
         edges: (tick, neighbour, whether its edge counted from then on), of each change.
     """
 
     sysid: int
     tick: int
-    rejected_samples: int
+    links: tuple[LinkReport, ...] = ()
+    behind_s: float = 0.0
     edges: tuple[tuple[int, int, bool], ...] = ()
 
 

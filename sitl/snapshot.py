@@ -47,7 +47,8 @@ class Snapshot:
         ready: the pre-arm checks pass, or it is armed.
         failsafe: the station is lost, or a fence breached, and it does what is set for that.
         in_formation: it flies its schedule, and neighbours' corrections count.
-        formation_delay_s: of the neighbours' corrections.
+        formation_delay_s: of the neighbours' corrections; in real time, as measured.
+        late_samples, lost_samples: of theirs, so far; None in lockstep.
         fence_enabled: a fence is heeded.
         breach_status: it is outside its fence now.
         breach_count: how often it has gone outside.
@@ -80,6 +81,8 @@ class Snapshot:
     failsafe: bool = False
     in_formation: bool = False
     formation_delay_s: float = 0.0
+    late_samples: int | None = None
+    lost_samples: int | None = None
     fence_enabled: bool = False
     breach_status: bool = False
     breach_count: int = 0

@@ -37,6 +37,8 @@ class SwarmOptions:
         arm: how much of the formation law is on.
         held: whether the clocks start held.
         speed: factor of the clocks; infinite for as fast as they go.
+        real_time: the clocks are the wall's, held until they are released together, and nobody waits for anybody; in
+            lockstep otherwise.
         stations: (host, port) that telemetry goes to over UDP.
         tcp_port: of the first vehicle, 10 more each for the others; 0 for free ones.
         truth: folder for the truth files; None keeps none.
@@ -52,6 +54,7 @@ class SwarmOptions:
     arm: Arm = "full"
     held: bool = True
     speed: float = math.inf
+    real_time: bool = False
     stations: tuple[tuple[str, int], ...] = ()
     tcp_port: int = 0
     truth: Path | None = None
@@ -85,7 +88,16 @@ class Swarm:
         self.endpoints: dict[int, Endpoint] = {}
         try:
             for i, group in enumerate(groups):
-                self._start(ProcessConfig(group, self.name, self._peers[i], options.held, options.speed))
+                self._start(
+                    ProcessConfig(
+                        group,
+                        self.name,
+                        self._peers[i],
+                        held=options.held or options.real_time,
+                        speed=options.speed,
+                        real_time=options.real_time,
+                    )
+                )
             self._wait_until_ready(self._processes)
         except BaseException:
             self.end()
@@ -196,6 +208,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             gains=vehicle_gains(formation, stand.sysid - shift),
             network=network,
             arm=options.arm,
+            real_time=options.real_time,
         )
         for stand in everyone
     ]

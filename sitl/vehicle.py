@@ -16,6 +16,7 @@ from sitl.failsafes import Failsafes
 from sitl.fence_watch import FenceAreas
 from sitl.flight import ground_velocity
 from sitl.formation.correction import Correction
+from sitl.formation.link_report import LinkReport, mean_delay_s
 from sitl.homing import check_rally
 from sitl.landed_state import landed_state
 from sitl.modes import Mode
@@ -43,10 +44,14 @@ class Vehicle:
         config: what it is told at its start.
         truth: takes its state at each tick.
         store: keeps plans and parameters over restarts.
+
+    Attributes:
+        links: what has come of the links to it, as far as it is known.
     """
 
     def __init__(self, config: VehicleConfig, truth: TruthWriter, store: Store | None = None) -> None:
         self.lock = threading.RLock()
+        self.links: tuple[LinkReport, ...] = ()
         self._config = config
         self._truth = truth
         self._store = store or Store()
@@ -250,7 +255,9 @@ class Vehicle:
             ready=captain.armed or flying or self.prearm() is None,
             failsafe=self._failsafes.active,
             in_formation=pilot.in_formation,
-            formation_delay_s=self._config.network.channel.delay_ticks * TICK_S,
+            formation_delay_s=mean_delay_s(self.links) or self._config.network.channel.delay_ticks * TICK_S,
+            late_samples=sum(link.late for link in self.links) if self._config.real_time else None,
+            lost_samples=sum(link.lost for link in self.links) if self._config.real_time else None,
             fence_enabled=fence.enabled,
             breach_status=fence.breached,
             breach_count=fence.count,

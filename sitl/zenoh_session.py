@@ -1,7 +1,8 @@
 """Opening a Zenoh session for a swarm on this machine, and the swarm's keys.
 
-Peers listen on sockets of their own and connect to those that they are told; nobody scouts. The leases are long, since
-in lockstep a paused process must lose nothing; one that has ended is noticed at once, by its closed socket.
+Peers listen on sockets of their own and connect to those that they are told; nobody scouts. In lockstep the leases are
+long, since a paused process must lose nothing; one that has ended is noticed at once, by its closed socket. In real
+time one that is silent for a second has gone, until it is back.
 """
 
 import contextlib
@@ -15,6 +16,8 @@ from pathlib import Path
 import zenoh
 
 UNIX = "unixsock-stream/"
+LEASE_MS = 3_600_000
+LIVE_LEASE_MS = 1000
 
 
 @dataclass(frozen=True)
@@ -25,14 +28,18 @@ class Peer:
     connect: tuple[str, ...]
 
 
-def open_session(peer: Peer) -> zenoh.Session:
+def open_session(peer: Peer, *, real_time: bool = False) -> zenoh.Session:
     """Open a session; the caller closes it, best by `with`.
+
+    Args:
+        peer: where it listens and connects.
+        real_time: whether it goes when it falls silent, and does not hold up others.
 
     Raises:
         zenoh.ZError: it cannot listen there.
     """
     config = zenoh.Config()
-    for key, value in _settings(peer).items():
+    for key, value in (_settings(peer) | _timing(real_time)).items():
         config.insert_json5(key, json.dumps(value))
     return zenoh.open(config)
 
@@ -48,7 +55,14 @@ def _settings(peer: Peer) -> dict[str, object]:
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
         "scouting/delay": 0,
-        "transport/link/tx/lease": 3_600_000,
+    }
+
+
+def _timing(real_time: bool) -> dict[str, object]:
+    if real_time:
+        return {"transport/link/tx/lease": LIVE_LEASE_MS}
+    return {
+        "transport/link/tx/lease": LEASE_MS,
         "transport/link/tx/keep_alive": 400,
         "transport/link/tx/queue/congestion_control/block/wait_before_close": 3_600_000_000,
     }

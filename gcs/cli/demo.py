@@ -7,10 +7,12 @@ from gcs.cli.options import (
     NoCorrectionsOption,
     NoNeighboursOption,
     OutOption,
+    RealTimeOption,
     ScenarioArgument,
     SeedOption,
     SpeedOption,
     chosen_arm,
+    clock_speed,
 )
 
 
@@ -22,6 +24,7 @@ def demo(
     no_corrections: NoCorrectionsOption = False,
     no_neighbours: NoNeighboursOption = False,
     speed: SpeedOption = 0.0,
+    real_time: RealTimeOption = False,
     json: JsonOption = False,
 ) -> None:
     """Plan a scenario, upload it to simulated vehicles over MAVLink, fly it in formation, and report.
@@ -42,6 +45,7 @@ def demo(
         options = FlightOptions(
             delay_s=loaded.formation.delay_s if delay is None else delay,
             arm=arm,
-            speed=speed or float("inf"),
+            speed=clock_speed(speed, real_time),
+            real_time=real_time,
         )
         fly_and_report(run, loaded, plan, options, json)

@@ -2,7 +2,7 @@
 
 from gcs.cli import output
 from gcs.cli.errors import FELL_SHORT
-from gcs.cli.tables import flight_table, formation_table
+from gcs.cli.tables import flight_table, formation_table, link_table
 from gcs.delay_margin import delay_margin_s
 from gcs.report import Report
 from gcs.run_folder import RunFolder
@@ -23,6 +23,8 @@ def show_report(report: Report, run: RunFolder | None, json: bool) -> None:
     else:
         output.out.print(flight_table(report.metrics))
         output.out.print(formation_table(report.metrics))
+        if links := link_table(report.metrics):
+            output.out.print(links)
         for line in report.shortfalls:
             output.out.print(f"[red]Fell short:[/red] {line}")
         if run:

@@ -8,9 +8,11 @@ from gcs.cli.options import (
     JsonOption,
     NoCorrectionsOption,
     NoNeighboursOption,
+    RealTimeOption,
     RunArgument,
     SpeedOption,
     chosen_arm,
+    clock_speed,
 )
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ def fly(
     no_corrections: NoCorrectionsOption = False,
     no_neighbours: NoNeighboursOption = False,
     speed: SpeedOption = 0.0,
+    real_time: RealTimeOption = False,
     json: JsonOption = False,
 ) -> None:
     """Fly a planned run on simulated vehicles and report; an earlier flight in the same run is replaced.
@@ -41,7 +44,8 @@ def fly(
         options = FlightOptions(
             delay_s=scenario.formation.delay_s if delay is None else delay,
             arm=chosen_arm(no_corrections, no_neighbours),
-            speed=speed or float("inf"),
+            speed=clock_speed(speed, real_time),
+            real_time=real_time,
         )
         fly_and_report(folder, scenario, plan, options, json)
 

@@ -51,7 +51,7 @@ def _table(statuses: list[VehicleStatus]) -> Table:
     for heading in ("m/s", "alt m", "off track m"):
         table.add_column(heading, justify="right")
     for status in statuses:
-        state = "[red]lost[/red]" if status.lost else "[green]arrived[/green]" if status.arrived else status.mode
+        state = _state(status)
         table.add_row(
             f"{status.sysid} {status.name}",
             state,
@@ -62,3 +62,11 @@ def _table(statuses: list[VehicleStatus]) -> Table:
             f"{status.cross_track_m:.1f}",
         )
     return table
+
+
+def _state(status: VehicleStatus) -> str:
+    if status.lost:
+        return "[red]lost[/red]"
+    if status.silent:
+        return "[red]silent[/red]"
+    return "[green]arrived[/green]" if status.arrived else status.mode

@@ -45,6 +45,19 @@ SpeedOption = Annotated[
         "--speed", metavar="X", min=0.0, callback=finite, help="Simulated seconds a second; 0 for as fast as it goes."
     ),
 ]
+RealTimeOption = Annotated[
+    bool,
+    typer.Option(
+        "--real-time",
+        help="The simulated clock is the wall's (times --speed, 1 unless given), and nobody waits for anybody: samples "
+        "may come late or get lost, and are counted. Else vehicles keep in lockstep, and a flight repeats exactly.",
+    ),
+]
+
+
+def clock_speed(speed: float, real_time: bool) -> float:
+    """The factor of the clock: of 0, as fast as it goes, or in real time the wall's."""
+    return speed or (1.0 if real_time else math.inf)
 
 
 def chosen_arm(no_corrections: bool, no_neighbours: bool) -> "Arm":

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
-from gcs.cli.options import ScenarioArgument, SeedOption, SpeedOption
+from gcs.cli.options import RealTimeOption, ScenarioArgument, SeedOption, SpeedOption, clock_speed
 
 if TYPE_CHECKING:
     from sitl.swarm import Swarm
@@ -79,6 +79,7 @@ def sim(
     count: CountOption = None,
     instance: InstanceOption = 0,
     speed: SpeedOption = 1.0,
+    real_time: RealTimeOption = False,
     held: HeldOption = False,
     seed: SeedOption = None,
     sysid_base: SysidBaseOption = None,
@@ -113,7 +114,8 @@ def sim(
                 seed=loaded.seed if seed is None else seed,
                 delay_s=loaded.formation.delay_s,
                 held=held,
-                speed=speed or float("inf"),
+                speed=clock_speed(speed, real_time),
+                real_time=real_time,
                 stations=tuple(stations),
                 tcp_port=first_port,
                 memory=memory.path,
@@ -128,26 +130,32 @@ def sim(
                 output.out.print(endpoint_table(loaded.name, swarm))
                 for line in ways_to_connect(swarm, stations, memory.path):
                     output.out.print(line, soft_wrap=True)
-                if held:
-                    _release_on_enter(swarm)
+                if _enter_pressed() if held else real_time:
+                    _release(swarm)
                 output.out.print("Ctrl-C ends the simulation.")
                 _watch(swarm)
         raise SystemExit(FELL_SHORT)
 
 
-def _release_on_enter(swarm: "Swarm") -> None:
-    """Wait for Enter, then let the clocks go; without a keyboard they stay held."""
+def _enter_pressed() -> bool:
+    """Wait for Enter; without a keyboard it is never pressed."""
     from gcs.cli import output
-    from gcs.swarm_clock import SwarmClock
-    from sitl.zenoh_session import open_session
 
     output.out.print("The clock is held; Enter releases it.")
     try:
         input()
     except EOFError:
-        return
+        return False
+    return True
+
+
+def _release(swarm: "Swarm") -> None:
+    """Let the clocks go, all at one moment."""
+    from gcs.swarm_clock import SwarmClock
+    from sitl.zenoh_session import open_session
+
     with open_session(swarm.station_peer) as session:
-        SwarmClock(session, swarm.name, swarm.endpoints).release(swarm.endpoints)
+        SwarmClock(session, swarm.name, swarm.endpoints).start(swarm.endpoints)
 
 
 def _watch(swarm: "Swarm") -> None:

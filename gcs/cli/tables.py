@@ -136,8 +136,30 @@ def formation_table(metrics: dict[str, Any]) -> Table:
         ("times real time", f"{timing['real_time_factor']:.0f}"),
         ("trajectory", (metrics["trajectory_sha256"] or "none")[:16]),
     ]
+    if metrics["real_time"]:
+        rows.insert(7, ("real and injected delay, measured", f"{_shown(formation['measured_delay_s'], '.3f')} s"))
+        rows.insert(8, ("most behind the clock, wall time", f"{metrics['behind_s']:.3f} s"))
+    counts = [formation[key] for key in ("late_samples", "lost_samples", "refused_samples")]
+    if metrics["real_time"] or any(counts):
+        rows.insert(-1, ("samples late / lost / refused", " / ".join(map(str, counts))))
     for row in rows:
         table.add_row(*row)
+    return table
+
+
+def link_table(metrics: dict[str, Any]) -> Table | None:
+    """What came of each link, in real time; None in lockstep."""
+    if not metrics["real_time"]:
+        return None
+    table = _table("Links", ["from - to", "heard", "late", "lost", "refused", "delay, mean s", "most s"])
+    for link in metrics["links"]:
+        table.add_row(
+            f"{link['sender']} - {link['receiver']}",
+            *(str(link[key]) for key in ("heard", "late", "lost")),
+            str(sum(link["refused"].values())),
+            _shown(link["delay_mean_s"], ".3f"),
+            _shown(link["delay_max_s"], ".3f"),
+        )
     return table
 
 

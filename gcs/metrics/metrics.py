@@ -22,6 +22,7 @@ from gcs.truth import H, Truths, trajectory_sha256
 from missions.scenario import Scenario
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from sitl.config import Arm
+from sitl.formation.link_report import LinkReport, mean_delay_s
 from sitl.scenario_network import network_of
 
 
@@ -48,6 +49,8 @@ class VehicleMetrics:
 class FormationMetrics:
     """All vehicles together; None is unknown, or not defined for so few vehicles.
 
+    `measured_delay_s` is, in real time, the mean over all samples of the injected delay and the real one; samples were
+    late that took a tick or more of real delay, lost that never came, refused that were not let in.
     `clearance_margin_m` is what is left above limits.clearance_m, which grows from 0 over limits.climb_out_m, and
     `min_wall_m` the least distance from an obstacle.
     """
@@ -61,8 +64,10 @@ class FormationMetrics:
     clearance_margin_m: float | None
     min_wall_m: float | None
     radar_exposure_s: float
-    late_samples: int | None
-    lost_samples: int | None
+    late_samples: int
+    lost_samples: int
+    refused_samples: int
+    measured_delay_s: float | None
 
 
 @dataclass(frozen=True)
@@ -73,12 +78,15 @@ class Metrics:
     seed: int
     delay_s: float
     arm: Arm
+    real_time: bool
+    behind_s: float
     trajectory_sha256: str | None
     vehicles: tuple[VehicleMetrics, ...]
     formation: FormationMetrics
     timing: Timing
     events: tuple[Event, ...]
     graph: tuple[GraphUsed, ...]
+    links: tuple[LinkReport, ...]
     limits: tuple[FlightLimits, ...]
 
     def as_json(self) -> dict[str, Any]:
@@ -122,14 +130,18 @@ def measure(
     ends = [end.tick for end in arrivals.values() if end.tick is not None]
     # A vehicle that was lost or stopped leaves a truth that ends where chance had it, unless the scenario had it so.
     deaths = network_of(scenario, tuple(references), record.delay_s).deaths
-    whole = record.lost.keys() <= deaths.keys() and all(
-        len(truth) > max(ends, default=0) or len(truth) == deaths.get(sysid) for sysid, truth in truths.items()
+    whole = (
+        not record.real_time
+        and record.lost.keys() <= deaths.keys()
+        and all(len(truth) > max(ends, default=0) or len(truth) == deaths.get(sysid) for sysid, truth in truths.items())
     )
     metrics = Metrics(
         scenario=scenario.name,
         seed=record.seed,
         delay_s=record.delay_s,
         arm=record.arm,
+        real_time=record.real_time,
+        behind_s=record.behind_s,
         trajectory_sha256=trajectory_sha256(truths, max(ends)) if ends and whole else None,
         vehicles=tuple(
             _vehicle(uav, references[uav.sysid].duration_s, arrivals.get(uav.sysid), record) for uav in plan.uavs
@@ -138,6 +150,7 @@ def measure(
         timing=record.timing,
         events=tuple(sorted((*record.events, *scheduled(scenario), *arrived), key=lambda event: event.t_s)),
         graph=graph_used(record.edges),
+        links=record.links,
         limits=tuple(
             flight_limits(sysid, truth[airborne_row(truth[:, : H + 1], scenario) or 0 : _rows(arrivals[sysid])])
             for sysid, truth in sorted(truths.items())
@@ -178,8 +191,10 @@ def _formation(
         clearance_margin_m=_least(one.clearance_margin_m for one in around),
         min_wall_m=_least(one.wall_m for one in around),
         radar_exposure_s=math.fsum(one.radar_exposure_s for one in around),
-        late_samples=record.late_samples,
-        lost_samples=record.lost_samples,
+        late_samples=sum(link.late for link in record.links),
+        lost_samples=sum(link.lost for link in record.links),
+        refused_samples=sum(sum(link.refused.values()) for link in record.links),
+        measured_delay_s=mean_delay_s(record.links),
     )
 
 

@@ -104,4 +104,4 @@ def _nearer(distance_m: float | None, than_m: float) -> bool:
 
 
 def _least(outcomes: Sequence[Outcome], key: str) -> float:
-    return min(value for outcome in outcomes if (value := getattr(outcome, key)) is not None)
+    return float(min(value for outcome in outcomes if (value := getattr(outcome, key)) is not None))

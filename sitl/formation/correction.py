@@ -47,14 +47,16 @@ def decode(payload: bytes) -> list[Correction]:
     """The samples in a message.
 
     Raises:
-        ValueError: it does not consist of samples of this version; the message says why.
+        ValueError: it does not consist of samples of this version; the message is one of a few reasons.
     """
     if not payload or len(payload) % _LAYOUT.size:
-        raise ValueError(f"{len(payload)} bytes, not a multiple of {_LAYOUT.size}")
+        raise ValueError(f"length no multiple of {_LAYOUT.size} bytes")
     samples = []
     for magic, version, flags, sysid, tick, sequence, along, along_rate in _LAYOUT.iter_unpack(payload):
-        if magic != b"SK" or version != VERSION:
-            raise ValueError(f"not a correction of version {VERSION}")
+        if magic != b"SK":
+            raise ValueError("not a correction")
+        if version != VERSION:
+            raise ValueError(f"not of version {VERSION}")
         if not (math.isfinite(along) and math.isfinite(along_rate)):
             raise ValueError("not finite")
         samples.append(Correction(sysid, tick, sequence, bool(flags & _IN_FORMATION), along, along_rate))

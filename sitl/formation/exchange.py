@@ -2,17 +2,19 @@
 
 import queue
 import time
-from collections import Counter
 from collections.abc import Callable, Mapping
+from functools import partial
 from types import MappingProxyType
 
 import zenoh
 
-from sitl.formation.correction import Correction, decode, encode
+from sitl.formation.correction import Correction, encode
+from sitl.formation.door import Door
+from sitl.formation.link_report import LinkReport
 from sitl.zenoh_session import alive_key, correction_key, sysid_of
 
-_Message = tuple[int, bytes | bool]
-"""From a neighbour: a message, or whether it is there."""
+FAR_TICKS = 90_000
+"""A sample that is an hour ahead is not believed. Who has just been started again may be well behind its neighbours."""
 
 
 class Exchange:
@@ -29,9 +31,10 @@ class Exchange:
 
     Attributes:
         neighbours: those that are listened to in other processes.
-        rejected: messages of each that were not its samples.
         gone: vehicles of the swarm that have been there and are no more.
     """
+
+    congestion = zenoh.CongestionControl.BLOCK
 
     def __init__(
         self,
@@ -41,7 +44,6 @@ class Exchange:
         last_ticks: Mapping[int, int] = MappingProxyType({}),
     ) -> None:
         self.neighbours: tuple[int, ...] = ()
-        self.rejected: Counter[int] = Counter()
         self.gone: set[int] = set()
         self._session = session
         self._swarm = swarm
@@ -58,12 +60,13 @@ class Exchange:
         self._unheard: set[int] = set()
         self._own: dict[int, Correction] = {}
         self._unsent: dict[int, list[bytes]] = {sysid: [] for sysid in delays}
-        # Zenoh's threads only put into the inbox; everything else is the caller's thread's.
-        self._inbox: queue.SimpleQueue[_Message | None] = queue.SimpleQueue()
+        self._doors: dict[int, Door] = {}
+        # Zenoh's threads only put into the inbox what is to be done; all of it is done in the caller's thread.
+        self._inbox: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._publishers = {
             sysid: session.declare_publisher(
                 correction_key(swarm, sysid),
-                congestion_control=zenoh.CongestionControl.BLOCK,
+                congestion_control=self.congestion,
                 priority=zenoh.Priority.REAL_TIME,
                 express=False,
             )
@@ -92,6 +95,7 @@ class Exchange:
                 self.neighbours = tuple(sorted((*self.neighbours, neighbour)))
                 self._newest[neighbour] = -1
                 self._unheard.add(neighbour)
+                self._doors[neighbour] = Door(neighbour)
                 self._session.declare_subscriber(
                     correction_key(self._swarm, neighbour),
                     zenoh.handlers.Callback(self._sample_putter(neighbour), indirect=False),
@@ -102,7 +106,7 @@ class Exchange:
         deadline = time.monotonic() + timeout_s
         while missing := set(self.neighbours) - self._present:
             try:
-                self._take(self._inbox.get(timeout=max(0.0, deadline - time.monotonic())))
+                self._inbox.get(timeout=max(0.0, deadline - time.monotonic()))()
             except queue.Empty:
                 return missing
             if self._stopped:
@@ -123,14 +127,14 @@ class Exchange:
     def gather(self, tick: int) -> None:
         """Wait for all that is heard at a tick of neighbours that are there; no more once `stop` was called."""
         while (self.gone or self._unheard) and not self._inbox.empty():  # is someone back, or there at last?
-            self._take(self._inbox.get())
+            self._inbox.get()()
         self._tick = tick
         for neighbour in self.neighbours:
             if neighbour in self._unheard:
                 continue
             needed = min(tick - self._least[neighbour], self._last_ticks.get(neighbour, tick))
             while self._newest[neighbour] < needed and neighbour not in self.gone and not self._stopped:
-                self._take(self._inbox.get())
+                self._inbox.get()()
         for sysid, samples in self._samples.items():
             samples.pop(tick - self._most[sysid] - 1, None)
 
@@ -144,25 +148,33 @@ class Exchange:
                 heard[neighbour] = sample
         return heard
 
+    def complaints(self, sysid: int) -> list[str]:
+        """What is new of what was refused of the neighbours of a vehicle of this process, for people, a line each."""
+        doors = [self._doors[other] for other in self._delays[sysid] if other in self._doors]
+        return [line for door in doors for line in door.complaints()]
+
+    def reports(self, sysid: int) -> tuple[LinkReport, ...]:
+        """What came of the links to a vehicle of this process."""
+        return tuple(LinkReport(other, sysid, self._refused(other)) for other in sorted(self._delays[sysid]))
+
     def stop(self) -> None:
         """Wake a waiting `gather`, from any thread; it waits no more."""
-        self._inbox.put(None)
+        self._inbox.put(self._note_stop)
 
-    def _take(self, message: _Message | None) -> None:
-        if message is None:
-            self._stopped = True
-            return
-        neighbour, content = message
-        if content is True:
-            self._present.add(neighbour)
-            if neighbour in self.gone:
-                self.gone.discard(neighbour)
-                self._greet()
-        elif content is False:
-            self._present.discard(neighbour)
-            self.gone.add(neighbour)
-        else:
-            self._take_samples(neighbour, content)
+    def _note_stop(self) -> None:
+        self._stopped = True
+
+    def _note_present(self, sysid: int) -> None:
+        self._present.add(sysid)
+        if sysid in self.gone:
+            self.gone.discard(sysid)
+            if sysid in self._doors:
+                self._doors[sysid].reopen()
+            self._greet()
+
+    def _note_gone(self, sysid: int) -> None:
+        self._present.discard(sysid)
+        self.gone.add(sysid)
 
     def _greet(self) -> None:
         """Say the newest again, to a neighbour that is back: it waits for us from now on, as we do for it."""
@@ -170,24 +182,20 @@ class Exchange:
             self._publishers[sysid].put(encode(sample))
 
     def _take_samples(self, neighbour: int, payload: bytes) -> None:
-        try:
-            samples = decode(payload)
-        except ValueError:
-            self.rejected[neighbour] += 1
-            return
-        if any(sample.sysid != neighbour for sample in samples):
-            self.rejected[neighbour] += 1
-            return
-        self._unheard.discard(neighbour)
-        for sample in samples:
+        for sample in self._doors[neighbour].admit(payload, self._tick + FAR_TICKS):
+            self._unheard.discard(neighbour)
             if sample.tick >= self._tick - self._most[neighbour]:  # one who is back may have to catch up
                 self._samples[neighbour][sample.tick] = sample
             self._newest[neighbour] = max(self._newest[neighbour], sample.tick)
 
+    def _refused(self, neighbour: int) -> dict[str, int]:
+        return dict(self._doors[neighbour].refused) if neighbour in self._doors else {}
+
     def _sample_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:
-        return lambda sample: self._inbox.put((neighbour, sample.payload.to_bytes()))
+        return lambda sample: self._inbox.put(partial(self._take_samples, neighbour, sample.payload.to_bytes()))
 
     def _put_liveliness(self, sample: zenoh.Sample) -> None:
         sysid = sysid_of(str(sample.key_expr), self._swarm)
         if sysid not in self._here:
-            self._inbox.put((sysid, sample.kind == zenoh.SampleKind.PUT))
+            note = self._note_present if sample.kind == zenoh.SampleKind.PUT else self._note_gone
+            self._inbox.put(partial(note, sysid))

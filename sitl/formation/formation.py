@@ -6,6 +6,7 @@ from sitl.formation.channel import DRAWS
 from sitl.formation.correction import Correction
 from sitl.formation.law import Gains
 from sitl.formation.link import Link
+from sitl.formation.live_link import LiveLink
 from sitl.formation.network import Network
 from sitl.noise import uniforms
 
@@ -17,16 +18,18 @@ class Formation:
         sysid: of the vehicle.
         network: of the swarm.
         seed: of what the channels do.
+        real_time: what is heard has been through its channel already, and may be late.
 
     Attributes:
         edges: (tick, neighbour, whether its edge counts from then on), of each change so far.
     """
 
-    def __init__(self, sysid: int, network: Network, seed: int) -> None:
+    def __init__(self, sysid: int, network: Network, seed: int, *, real_time: bool = False) -> None:
         self.edges: list[tuple[int, int, bool]] = []
         self._sysid = sysid
         self._network = network
         self._seed = seed
+        self._real_time = real_time
         self._lost: Set[int] = frozenset()
         self._gone: frozenset[int] = frozenset()
         self._weights = network.weights(sysid, self._gone)
@@ -56,7 +59,8 @@ class Formation:
 
         Args:
             own: the vehicle's deviations, that of this tick last.
-            heard: by neighbour, what it said as many ticks ago as its channel delays it; who said nothing is left out.
+            heard: by neighbour, what it said as many ticks ago as its channel delays it; in real time, the newest that
+                begins to count at this tick; who said nothing is left out.
         """
         self._follow(tick)
         total = 0.0
@@ -82,6 +86,8 @@ class Formation:
     def _link(self, sender: int, trust: float) -> Link:
         network, receiver = self._network, self._sysid
         channel = network.channel_of(sender, receiver)
+        if self._real_time:
+            return LiveLink(channel, None, (), network.stale_ticks, trust)
         draws: Iterator[tuple[float, ...]] | None = None
         if not channel.certain:
             draws = uniforms(self._seed, sender, receiver, DRAWS)

@@ -98,14 +98,14 @@ class Link:
             own: the vehicle's own deviations, that of this tick last.
             weight: a_pq; 0 while there is no such edge.
         """
-        stamp, age = self._newest, tick - self._newest
         self.used = False
-        if stamp == NEVER:
+        if self._newest == NEVER:
             self.trust = waiting(self.trust, tick <= self._oldest_ticks and weight > 0.0)
             return 0.0
-        mine, other = own[-1 - min(age, len(own) - 1)], self._samples[stamp]
+        mine, other = self._pair(tick, own)
         flying = own[-1].in_formation and mine.in_formation and other.in_formation
-        self.used = flying and weight > 0.0 and mine.tick == stamp and age <= self._oldest_ticks
+        fresh = mine.tick == other.tick and tick - self._newest <= self._oldest_ticks
+        self.used = flying and weight > 0.0 and fresh
         part = 0.0
         if self.used:
             part = correction(
@@ -113,3 +113,7 @@ class Link:
             )
         self.trust = trusted(self.trust, self.used)
         return part
+
+    def _pair(self, tick: int, own: Sequence[Correction]) -> tuple[Correction, Correction]:
+        """The own and the neighbour's deviation, of one moment."""
+        return own[-1 - min(tick - self._newest, len(own) - 1)], self._samples[self._newest]

@@ -166,8 +166,6 @@ def make_record() -> Callable[..., FlightRecord]:
             "timing": Timing(plan.compile_s, plan.plan_s, 0.5, 0.2, 20.0, 1300.0, 65.0),
             "events": (Event(1243.1, 1, "arrived"),),
             "lost": {},
-            "late_samples": 0,
-            "lost_samples": 0,
             "delay_margin_s": 0.65,
         }
         return FlightRecord(**(values | changes))

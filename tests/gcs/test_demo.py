@@ -121,8 +121,6 @@ def test_what_concerns_the_flight_can_be_recomputed_from_truth_and_plan(flown: F
             timing=Timing(**metrics["timing"]),
             events=(),
             lost={},
-            late_samples=0,
-            lost_samples=0,
             delay_margin_s=metrics["formation"]["delay_margin_s"],
         ),
     )

@@ -17,7 +17,7 @@ from sitl.zenoh_session import alive_key, clock_key, discard_sockets, local_peer
 
 
 def make_clock(held: bool = False, speed: float = math.inf) -> Clock:
-    return Clock(held=held, speed=speed, on_stop=lambda: None)
+    return Clock(held=held, speed=speed)
 
 
 def test_a_held_clock_lets_nothing_begin_until_it_is_released() -> None:
@@ -32,7 +32,8 @@ def test_a_held_clock_lets_nothing_begin_until_it_is_released() -> None:
 
 def test_stopping_ends_waiting_and_tells_it() -> None:
     stopped: list[bool] = []
-    clock, answers = Clock(held=True, speed=1.0, on_stop=lambda: stopped.append(True)), list[bool]()
+    clock, answers = Clock(held=True, speed=1.0), list[bool]()
+    clock.on_stop = lambda: stopped.append(True)
     thread = threading.Thread(target=lambda: answers.append(clock.wait_for(0)))
     thread.start()
     clock.stop()
@@ -52,6 +53,54 @@ def test_a_paced_clock_is_never_early() -> None:
 def test_a_free_clock_does_not_wait() -> None:
     clock = make_clock()
     assert all(clock.wait_for(tick) for tick in range(10_000))
+
+
+def live_clock(speed: float = 1.0) -> Clock:
+    return Clock(held=True, speed=speed, real_time=True)
+
+
+def test_clocks_that_are_released_to_one_moment_agree_however_late_the_word_comes() -> None:
+    first, second = live_clock(20.0), live_clock(20.0)
+    at_s = time.time()
+    first.release(at_s)
+    time.sleep(0.05)
+    second.release(at_s)
+    apart = abs(first.now_ticks() - second.now_ticks())
+    assert first.now_ticks() >= 0.05 * 20.0 / TICK_S
+    assert apart < 0.02 * 20.0 / TICK_S, "the wall's clock and the process's, asked one after the other"
+
+
+def test_a_clock_in_real_time_is_never_early_and_makes_up_for_what_it_missed() -> None:
+    clock = live_clock(10.0)
+    start_s = time.time() + 0.05
+    clock.release(start_s)
+    for tick in range(20):
+        assert clock.wait_for(tick)
+        assert time.time() - start_s >= tick * TICK_S / 10.0 - 1e-3
+    time.sleep(0.8)  # as if the process had been stopped: longer than a clock of lockstep makes up for
+    ticks = 20
+    while clock.now_ticks() >= ticks:
+        assert clock.wait_for(ticks)
+        ticks += 1
+    assert ticks > 200, "no tick was left out, and the start is the same"
+    assert clock.most_behind_s >= 0.7
+
+
+def test_the_walls_clock_can_be_neither_held_nor_paced() -> None:
+    clock = live_clock()
+    with pytest.raises(ValueError, match="nobody holds"):
+        clock.hold()
+    with pytest.raises(ValueError, match="began with"):
+        clock.pace(2.0)
+    with pytest.raises(ValueError, match="moment"):
+        clock.release(math.nan)
+
+
+def test_a_second_release_does_not_move_the_start() -> None:
+    clock = live_clock()
+    clock.release(time.time() - 10.0)
+    clock.release(time.time())
+    assert clock.now_ticks() >= 10.0 / TICK_S
 
 
 @pytest.mark.parametrize(("delay_s", "ticks"), [(0.0, 1), (0.04, 1), (0.041, 2), (0.2, 5), (0.2001, 6), (1.0, 25)])
@@ -85,6 +134,14 @@ def test_the_station_releases_paces_holds_and_stops(station: tuple[zenoh.Session
     assert clock.held
     swarm.stop([4])
     assert clock.stopped
+
+
+def test_the_station_names_the_moment_of_the_start(station: tuple[zenoh.Session, Clock]) -> None:
+    session, clock = station
+    SwarmClock(session, "test", [4]).start([4], time.time() + 3600.0)
+    assert not clock.held
+    clock.speed = 1.0
+    assert clock.now_ticks() == pytest.approx(-3600.0 / TICK_S, abs=60.0 / TICK_S)
 
 
 def test_vehicles_that_do_not_answer_are_named(

@@ -7,12 +7,13 @@ from sitl.services.stream_messages.view import View
 
 
 def formation_values(view: View) -> tuple[Message, ...]:
-    """NAMED_VALUE_FLOAT twice: FormErr, metres along track ahead of its schedule, and FormDelay, seconds.
+    """NAMED_VALUE_FLOAT twice or four times: FormErr, metres along track ahead of its schedule, and FormDelay, seconds;
+    in real time FormLate and FormLost too, counts.
 
-    The delay is that of the neighbours' corrections.
+    Delay and counts are those of the neighbours' corrections.
     """
     now = view.snapshot
-    return (
-        mavlink.MAVLink_named_value_float_message(view.time_boot_ms, b"FormErr", now.along_track_m),
-        mavlink.MAVLink_named_value_float_message(view.time_boot_ms, b"FormDelay", now.formation_delay_s),
-    )
+    values = [(b"FormErr", now.along_track_m), (b"FormDelay", now.formation_delay_s)]
+    if now.late_samples is not None and now.lost_samples is not None:
+        values += [(b"FormLate", float(now.late_samples)), (b"FormLost", float(now.lost_samples))]
+    return tuple(mavlink.MAVLink_named_value_float_message(view.time_boot_ms, name, value) for name, value in values)

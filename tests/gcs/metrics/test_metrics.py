@@ -30,9 +30,9 @@ KEYS = {
     "events": {"t_s", "sysid", "what"},
 }  # fmt: skip
 MORE_KEYS = {
-    "": {"arm", "graph", "limits"},
+    "": {"arm", "limits", "graph", "links", "real_time", "behind_s"},
     "vehicles": {"lost_s"},
-    "formation": {"clearance_margin_m", "min_wall_m"},
+    "formation": {"clearance_margin_m", "min_wall_m", "refused_samples", "measured_delay_s"},
 }
 Truths = dict[int, np.ndarray]
 UPWARDS_M = np.array([0.0, 0.0, 6.0, 0.0, 0.0, 0.0])

@@ -1,0 +1,27 @@
+"""What one vehicle makes of a neighbour's samples in real time, where they may come late, or not at all."""
+
+from collections.abc import Sequence
+
+from sitl.formation.correction import Correction
+from sitl.formation.link import Link
+from sitl.ticks import TICK_S
+
+
+class LiveLink(Link):
+    """A link that takes what there is: see `Arrivals`, which applies the channel.
+
+    A sample up to the channel's delay and jitter old is paired with the own state of its moment, as in lockstep. An
+    older one is carried on by its velocity to so many ticks ago; when it is too old for that the edge is dropped.
+    """
+
+    def hear(self, tick: int, sample: Correction | None) -> None:
+        """Take in the newest that has begun to count; None when nothing has. Once a tick."""
+        if sample is not None and sample.tick > self._newest:
+            self._newest = sample.tick
+            self._samples = {sample.tick: sample}
+
+    def _pair(self, tick: int, own: Sequence[Correction]) -> tuple[Correction, Correction]:
+        sample = self._samples[self._newest]
+        moment = max(sample.tick, tick - self.channel.delay_ticks - self.channel.jitter_ticks)
+        along_m = sample.along_m + sample.along_rate_m_s * (moment - sample.tick) * TICK_S
+        return own[-1 - min(tick - moment, len(own) - 1)], sample._replace(tick=moment, along_m=along_m)
