@@ -6,6 +6,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO
 
+from gcs.file_lock import lock
 from missions.errors import InputError
 
 LOCK = "in-use"
@@ -54,7 +55,7 @@ class StateFolder:
     def _locked(self) -> BinaryIO:
         while True:
             file = self._lock.open("a+b")
-            if not _lock(file):
+            if not lock(file):
                 file.seek(0)
                 holder = file.read().decode(errors="replace").strip()
                 file.close()
@@ -78,25 +79,3 @@ class StateFolder:
         if sys.platform != "win32":  # there a file in use cannot be removed
             self._lock.unlink(missing_ok=True)
         self._file.close()
-
-
-if sys.platform != "win32":
-    import fcntl
-
-    def _lock(file: BinaryIO) -> bool:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-        return True
-
-else:
-    import msvcrt
-
-    def _lock(file: BinaryIO) -> bool:
-        file.seek(0x7FFF)  # not where the holder's number stands
-        try:
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-        except OSError:
-            return False
-        return True

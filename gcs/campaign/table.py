@@ -15,6 +15,7 @@ from typing import Any
 
 from gcs.campaign.axes import cell_of
 from gcs.campaign.case import Case, Flown, Outcome
+from gcs.file_lock import lock
 from missions.errors import InputError
 
 SEED = "seed"
@@ -36,7 +37,7 @@ class Table:
         rows: what is there, by the cells of `key_of`.
 
     Raises:
-        InputError: the file is no table with these columns, or cannot be written to.
+        InputError: the file is no table with these columns, cannot be written to, or another process has it open.
     """
 
     def __init__(self, path: Path, axes: Sequence[str]) -> None:
@@ -44,6 +45,8 @@ class Table:
         self._keys = len(axes) + 1
         try:
             self._file = path.open("a+b")
+            if not lock(self._file):
+                raise InputError(f"{path}: in use by another process; wait for it, or name a new folder with --out")
             self.rows = self._read(path)
         except OSError as error:
             raise InputError(f"{path}: {error.strerror}") from None

@@ -25,7 +25,7 @@ def fly_and_summarise(
     from gcs.campaign.summary import summarise
     from gcs.campaign.table import Table
     from gcs.cli import output
-    from gcs.cli.campaign_table import campaign_table, long_values
+    from gcs.cli.campaign_table import campaign_table, legend
     from gcs.figures.campaign import draw_campaign
 
     if parquet:
@@ -51,7 +51,7 @@ def fly_and_summarise(
         )
     else:
         output.print_wide(campaign_table(campaign, settings))
-        for line in long_values(campaign):
+        for line in legend(campaign):
             output.out.print(line, markup=False, soft_wrap=True)
         for file in (run.path / "runs.csv", *files):
             output.out.print(str(file), soft_wrap=True)

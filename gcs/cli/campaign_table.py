@@ -21,11 +21,7 @@ def campaign_table(campaign: Campaign, settings: Sequence[Setting]) -> Table:
             *(f"{key} {next(iter(labels(values).values()))}" for key, values in fixed.items()),
         ]
     )
-    caption = (
-        "Of n flights: formation error, median, 95 % and largest RMS in m; largest spread of arrivals in s;\n"
-        "least separation in m; in how many not all arrived"
-    )
-    table = Table(title=escape(title), caption=caption, title_justify="left", caption_justify="left")
+    table = Table(title=escape(title), title_justify="left")
     short = {key: labels(values) for key, values in campaign.axes.items()}
     for heading in varied:
         table.add_column(escape(heading.rpartition(".")[2]), no_wrap=True)
@@ -44,8 +40,10 @@ def campaign_table(campaign: Campaign, settings: Sequence[Setting]) -> Table:
     return table
 
 
-def long_values(campaign: Campaign) -> Iterator[str]:
-    """A line for each value that the table only numbers."""
+def legend(campaign: Campaign) -> Iterator[str]:
+    """What the columns are, and a line for each value that the table only numbers."""
+    yield "Of n flights: median, 95 % and largest of the RMS formation error in m; largest spread of arrivals in s;"
+    yield "least separation in m; how many fell short of all vehicles' arrival."
     for key, values in campaign.axes.items():
         for text, label in labels(values).items():
             if text != label:

@@ -59,3 +59,9 @@ def test_other_columns_are_another_table(tmp_path: Path) -> None:
     written(tmp_path / "runs.csv", range(1, 2))
     with pytest.raises(InputError, match="not the table of this campaign"):
         Table(tmp_path / "runs.csv", ("arm",))
+
+
+def test_two_at_once_would_fly_everything_twice(tmp_path: Path) -> None:
+    with Table(tmp_path / "runs.csv", AXES), pytest.raises(InputError, match=r"runs.csv: in use by another process"):
+        Table(tmp_path / "runs.csv", AXES)
+    written(tmp_path / "runs.csv", range(1, 2))
