@@ -9,7 +9,7 @@ from gcs.transfers.command import command
 from gcs.transfers.errors import TransferError
 from gcs.vehicle_link import VehicleLink
 from sitl.modes import Mode
-from sitl.services.opaque_id import received_opaque_id
+from sitl.services.opaque_id import received_opaque_ids
 
 _ASKED = {
     "GLOBAL_POSITION_INT": mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT,
@@ -68,7 +68,7 @@ def _report(vehicle: VehicleLink, answers: bool) -> dict[str, Any]:
         "ground_speed_m_s": hud.groundspeed if hud else None,
         "mission_item": current.seq if current else None,
         "mission_items": current.total if current and current.total != _NO_MISSION else None,
-        "mission_id": received_opaque_id(current) if current else None,
+        "mission_id": received_opaque_ids(current)[0] if current else None,
         "fence_breached": bool(fence.breach_status) if fence else None,
         "lost_frames": vehicle.lost_frames,
         "heard_s_ago": round(time.monotonic() - vehicle.heard_at_s, 3),

@@ -10,6 +10,8 @@ from typer.testing import Result
 
 from gcs.run_folder import RunFolder
 from missions.formats.qgc_plan import Plan, read_plan, write_plan
+from missions.plan_type import PlanType
+from sitl.services.opaque_id import opaque_id
 
 PATIENCE_S = 20.0
 
@@ -61,6 +63,8 @@ def test_missions_of_a_run_go_up_come_down_and_are_cleared(swarm: Any, run_folde
     assert "mode AUTO refused" in refused.stdout
     held = swarm.json("status", "--vehicle", "1-3")
     assert [sysid for sysid, one in held.items() if one["mission_items"]] == [1, 3]
+    identities = {sysid: opaque_id(PlanType.MISSION, mission) for sysid, mission in planned.items()}
+    assert {sysid: one["mission_id"] for sysid, one in held.items()} == {**identities, 2: 0}
 
 
 def test_one_file_goes_to_the_vehicle_that_was_chosen(swarm: Any, run_folder: Path, tmp_path: Path) -> None:
