@@ -32,6 +32,7 @@ class Formation:
         self._real_time = real_time
         self._lost: Set[int] = frozenset()
         self._gone: frozenset[int] = frozenset()
+        self._until_tick = 0
         self._weights = network.weights(sysid, self._gone)
         self._links = {
             other: self._link(other, trust=float(other in self._weights)) for other in network.neighbours(sysid)
@@ -48,6 +49,7 @@ class Formation:
     def lose(self, lost: Set[int]) -> None:
         """These, and no others, are gone, whatever the schedule says."""
         self._lost = lost
+        self._until_tick = 0
 
     def neighbours_at(self, tick: int) -> Set[int]:
         """Whose edges count at a tick, as far as it is known who is gone."""
@@ -74,6 +76,9 @@ class Formation:
 
     def _follow(self, tick: int) -> None:
         """The graph as of who is gone now; who was not foreseen as a neighbour is listened to from now on."""
+        if tick < self._until_tick:
+            return
+        self._until_tick = self._network.epoch_end(tick)
         gone = self._network.gone_at(tick) | self._lost
         if gone == self._gone:
             return

@@ -73,13 +73,19 @@ class Link:
         self._oldest_ticks = channel.delay_ticks + channel.jitter_ticks + stale_ticks
         self._in_burst = False
         self._newest = NEVER
+        self._sample: Correction | None = None
         self._arrivals = [NEVER] * (channel.jitter_ticks + 1)
         self._samples: dict[int, Correction] = {}
+        self._only_delays = draws is None and not self._silences
 
     def hear(self, tick: int, sample: Correction | None) -> None:
         """Take in what the neighbour said `delay_ticks` ago; None when it said nothing. Once a tick."""
-        stamp = tick - self.channel.delay_ticks
         delay = self.channel.delay_ticks
+        stamp = tick - delay
+        if self._only_delays:  # as in most flights, at every tick
+            if sample is not None:
+                self._newest, self._sample = stamp, sample
+            return
         if stamp >= 0 and self._draws is not None:
             jitter, loss, change = next(self._draws)
             self._in_burst, delay = carried(self._in_burst, (jitter, loss, change), self.channel)
@@ -89,7 +95,9 @@ class Link:
         before = self._newest
         self._newest = newest_heard(tick, before, self._arrivals)
         if self._newest > before:
-            self._samples = {stamp: one for stamp, one in self._samples.items() if stamp >= self._newest}
+            self._sample = self._samples[self._newest]
+            for overtaken in range(before, self._newest + 1):
+                self._samples.pop(overtaken, None)
 
     def part(self, tick: int, own: Sequence[Correction], weight: float, gains: Gains) -> float:
         """The neighbour's part of the law's corrections. Call it once a tick, after `hear`.
@@ -99,10 +107,11 @@ class Link:
             weight: a_pq; 0 while there is no such edge.
         """
         self.used = False
-        if self._newest == NEVER:
+        sample = self._sample
+        if sample is None:
             self.trust = waiting(self.trust, tick <= self._oldest_ticks and weight > 0.0)
             return 0.0
-        mine, other = self._pair(tick, own)
+        mine, other = self._pair(tick, own, sample)
         flying = own[-1].in_formation and mine.in_formation and other.in_formation
         fresh = mine.tick == other.tick and tick - self._newest <= self._oldest_ticks
         self.used = flying and weight > 0.0 and fresh
@@ -114,6 +123,6 @@ class Link:
         self.trust = trusted(self.trust, self.used)
         return part
 
-    def _pair(self, tick: int, own: Sequence[Correction]) -> tuple[Correction, Correction]:
+    def _pair(self, tick: int, own: Sequence[Correction], sample: Correction) -> tuple[Correction, Correction]:
         """The own and the neighbour's deviation, of one moment."""
-        return own[-1 - min(tick - self._newest, len(own) - 1)], self._samples[self._newest]
+        return own[-1 - min(tick - self._newest, len(own) - 1)], sample

@@ -17,11 +17,9 @@ class LiveLink(Link):
     def hear(self, tick: int, sample: Correction | None) -> None:
         """Take in the newest that has begun to count; None when nothing has. Once a tick."""
         if sample is not None and sample.tick > self._newest:
-            self._newest = sample.tick
-            self._samples = {sample.tick: sample}
+            self._newest, self._sample = sample.tick, sample
 
-    def _pair(self, tick: int, own: Sequence[Correction]) -> tuple[Correction, Correction]:
-        sample = self._samples[self._newest]
+    def _pair(self, tick: int, own: Sequence[Correction], sample: Correction) -> tuple[Correction, Correction]:
         moment = max(sample.tick, tick - self.channel.delay_ticks - self.channel.jitter_ticks)
         along_m = sample.along_m + sample.along_rate_m_s * (moment - sample.tick) * TICK_S
         return own[-1 - min(tick - moment, len(own) - 1)], sample._replace(tick=moment, along_m=along_m)

@@ -63,6 +63,10 @@ class Network:
         """Who is known to be gone by schedule."""
         return next(gone for start, gone in reversed(self.epochs) if start <= tick)
 
+    def epoch_end(self, tick: int) -> int:
+        """Until which tick nobody else is known to be gone by schedule."""
+        return next((start for start, _ in self.epochs if start > tick), FOR_EVER)
+
     def weights(self, sysid: int, gone: frozenset[int]) -> dict[int, float]:
         """a_pq of a vehicle's neighbours, when these are gone."""
         return neighbour_weights(sysid, repaired(self.graph, gone))
