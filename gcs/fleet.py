@@ -20,6 +20,8 @@ from sitl.services.peer import Message, Peer
 from sitl.services.signing import Signing, Verdict
 
 _HEARTBEAT_PERIOD_S = 1.0
+_HEARD_OUT_S = 1.2
+"""A heartbeat and a little: who else has a system id is heard within it."""
 _FLUSH_PERIOD_S = 0.1
 _STRANGERS = 256
 """Addresses remembered from which no vehicle has been heard yet."""
@@ -57,6 +59,7 @@ class Fleet:
         self._announce = announce
         self._logs: list[TelemetryLog] = []
         self._links: list[Link] = []
+        self._attached_at_s = time.monotonic()
         self._channels: dict[tuple[Link, Peer], Channel] = {}
         self._strangers: dict[tuple[Link, Peer], Channel] = {}
         self._channels_seen = 0
@@ -85,6 +88,7 @@ class Fleet:
     def attach(self, link: Link) -> None:
         """Listen on this link, and close it in the end."""
         self._links.append(link)
+        self._attached_at_s = time.monotonic()
         link.on_bytes = lambda data, peer: self._on_bytes(link, data, peer)
         link.on_lost = lambda peer: self._on_lost(link, peer)
         link.on_back = lambda peer: self._on_back(link, peer)
@@ -124,6 +128,14 @@ class Fleet:
         except TimeoutError:
             raise InputError(self._missing([sysid], timeout_s)) from None
         return self.vehicles[sysid]
+
+    async def hear_out(self) -> None:
+        """Wait until all who may have come to a listening socket have had the time of a heartbeat; then ask `doubled`.
+
+        Where the station calls, a link leads to one address.
+        """
+        if any(not link.greeted for link in self._links):
+            await asyncio.sleep(max(0.0, self._attached_at_s + _HEARD_OUT_S - time.monotonic()))
 
     async def discover(self, seconds: float) -> list[VehicleLink]:
         """Listen for so long, some heartbeats' time; `check` says whether two have one system id.

@@ -138,6 +138,8 @@ async def results_of(
             results = await _with_whoever_is_there(fleet, sysids, patience_s, work)
         else:
             vehicles = await fleet.wait_for(sysids, patience_s)
+            await fleet.hear_out()
+            fleet.check()
             if check is not None:
                 check(vehicles)
             results = await for_all(vehicles, work)
@@ -157,13 +159,17 @@ async def _with_whoever_is_there(
 
     async def one(sysid: int) -> Any:
         try:
-            result = await work(await fleet.hear(sysid, patience_s))
+            return await work(await fleet.hear(sysid, patience_s))
         except (InputError, TransferError) as error:
             return error
-        doubled = fleet.doubled(sysid)
-        return result if doubled is None else TransferError(f"{doubled}; only one of them was reached")
 
-    return dict(zip(sysids, await asyncio.gather(*map(one, sysids)), strict=True))
+    results = dict(zip(sysids, await asyncio.gather(*map(one, sysids)), strict=True))
+    await fleet.hear_out()
+    for sysid, result in results.items():
+        if (doubled := fleet.doubled(sysid)) is not None:
+            came = f"{result}; {doubled}" if isinstance(result, Exception) else doubled
+            results[sysid] = TransferError(f"{came}; only one of them was reached")
+    return results
 
 
 def _advise_key(fleet: "Fleet", results: dict[int, Any]) -> None:
