@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 
+from missions.commands import Command
 from missions.environment.terrain import ground_height_m
 from missions.errors import InputError
 from missions.mission import Mission, MissionItem
@@ -304,7 +305,8 @@ class Captain:
         self.pilot.fly(stage)
         if isinstance(stage, CircleStage) and stage.complete:
             self.complete = True
-            self.say(INFO, "Mission complete, loitering")
+            home = self.itinerary.mission[stage.seq].command == Command.NAV_RETURN_TO_LAUNCH
+            self.say(INFO, f"Mission complete, {'flying home' if home else 'loitering'}")
 
     def _end_here(self) -> None:
         """The mission is over where it is: go on circling, or begin to."""

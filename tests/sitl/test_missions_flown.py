@@ -145,6 +145,7 @@ def test_return_to_launch_ends_the_mission_at_home(make_flown: Any, place: Place
     back = place(Command.NAV_RETURN_TO_LAUNCH)
     flown = make_flown().in_auto(place(Command.NAV_WAYPOINT, 2000, 500, 60), back)
     rows = flown.fly_s(330)
+    assert "Mission complete, flying home" in flown.texts
     radius = flown.vehicle.parameters["WP_LOITER_RAD"]
     assert np.hypot(rows[-1000:, 0], rows[-1000:, 1]) == pytest.approx(radius, abs=25)
     assert rows[-1000:, 2] == pytest.approx(flown.vehicle.parameters["RTL_ALTITUDE"], abs=6)
