@@ -10,7 +10,7 @@ BIN := .venv/bin
 help:
 	@echo "make demo       set up, then plan, fly and report nine vehicles (scenario radars)"
 	@echo "make test       set up, then ruff, mypy, import-linter and pytest"
-	@echo "make soak       a million pieces of hostile traffic at each end, uploads on lossy links and with killed ends; figures to runs/soak/soak.json"
+	@echo "make soak       hostile traffic, lossy links, killed ends, failures in flight and gusts by the thousand; figures to runs/soak/soak.json"
 	@echo "make pictures   fly the shipped scenarios and renew the README's pictures"
 	@echo "make clean      remove .venv and caches"
 

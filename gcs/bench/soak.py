@@ -1,5 +1,6 @@
-"""`make soak`: hostile traffic, lossy links and killed ends at full size; writes the figures, and fails when an end has
-grown, an upload has not come through, or a kill has left something else than a whole plan."""
+"""`make soak`: hostile traffic, lossy links, killed ends, and flights in which things fail, at full size; writes the
+figures, and fails when an end has grown, an upload has not come through, a kill has left something else than a whole
+plan, vehicles have collided or not arrived, or corrections are worth less than they should be."""
 
 import json
 import sys
@@ -8,6 +9,7 @@ from dataclasses import asdict
 from multiprocessing import get_context
 from pathlib import Path
 
+from gcs.bench.flown_often import measure_arms, measure_faults
 from gcs.bench.fuzz import fuzz_endpoint, fuzz_station
 from gcs.bench.killed_transfers import measure_kills
 from gcs.bench.lossy_transfers import measure_transfers
@@ -31,13 +33,22 @@ def soak(out: Path) -> int:
         fuzzed = {name: asdict(future.result()) for name, future in running.items()}
     relayed = asdict(measure_relayed(RELAYED_LOSS, UPLOADS))  # by itself: it takes wall time
     kills = {who: asdict(kills) for who, kills in measure_kills(ITEMS_OF_KILLED).items()}
-    figures = {**fuzzed, "transfers": transfers, "relayed": relayed, "kills": kills}
+    faults, arms = measure_faults(), measure_arms()
+    figures = {
+        **fuzzed,
+        "transfers": transfers,
+        "relayed": relayed,
+        "kills": kills,
+        "faults": [asdict(campaign) for campaign in faults],
+        "arms": [worth.as_json() for worth in arms],
+    }
     out.mkdir(parents=True, exist_ok=True)
     text = json.dumps(figures, indent=1)
     (out / "soak.json").write_text(text + "\n", encoding="utf-8")
     print(text)
     grown = any(end["grown_mb"] > MOST_GROWN_MB for end in fuzzed.values())
     failed = any(measured["failed"] for measured in [*transfers, relayed])
+    failed |= not all(campaign.passed for campaign in faults) or not all(worth.holds for worth in arms)
     return int(grown or failed or any(killed["neither"] for killed in kills.values()))
 
 

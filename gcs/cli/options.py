@@ -20,7 +20,8 @@ def finite(value: float | None) -> float | None:
 ScenarioArgument = Annotated[
     str,
     typer.Argument(
-        metavar="[SCENARIO|FILE]", help="A scenario that ships (mountains, radars, ridge, vee) or a TOML file."
+        metavar="[SCENARIO|FILE]",
+        help="A scenario that ships (crossing, mountains, radars, ridge, vee) or a TOML file.",
     ),
 ]
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run, as made by `skein plan`.")]

@@ -1,5 +1,6 @@
 """The table that a study of delay prints; it fits 80 columns."""
 
+from rich import box
 from rich.table import Table
 
 from gcs.study.delay import DelayStudy
@@ -15,10 +16,10 @@ def delay_table(study: DelayStudy) -> Table:
         "± 95 %, at the least delay flown and the greatest, and without neighbours.",
         title_justify="left",
         caption_justify="left",
-        width=80,
+        box=box.SIMPLE_HEAD,
     )
-    table.add_column("graph")
-    for heading in ("τ* s", "at 0.95", "at 1.05", "aircraft\nτ* s", "least\ndelay", "greatest", "own\nschedule"):
+    table.add_column("graph", no_wrap=True)
+    for heading in ("τ* s", "at 0.95", "at 1.05", "aircraft\nτ* s", "least\ndelay", "greatest\ndelay", "own\nschedule"):
         table.add_column(heading, justify="right", no_wrap=True)
     for graph, margin_s in study.margins_s.items():
         mine = [growth for growth in study.growths if (growth.graph, growth.law) == (graph, FLOWN)]

@@ -84,12 +84,11 @@ def draw_aircraft(
                 axes = grid[row, column]
                 full = on_curve(points, graph, "full")
                 _curve(axes, full, measure, scale, LOOKS["full"][1])
-                ends = (min(delay_s, full[0].level), full[-1].level)
                 for arm in ("own_schedule", "plain"):
                     _level(axes, on_curve(points, graph, arm)[0], measure, scale, LOOKS[arm][1])
                 axes.axvline(margin_s, color=style.DANGER, linewidth=1.2)
                 axes.axvline(delay_s, color=style.FAINT, linewidth=1.0, linestyle=":")
-                axes.set_xlim(*ends)
+                axes.set_xlim(0.0, full[-1].level)
                 if row == 0:
                     axes.set_title(graph)
                     axes.set_yscale("log")
@@ -115,10 +114,11 @@ def draw_channels(scenario: str, points: Sequence[Point], delay_s: float, path: 
             for row, (measure, name, scale) in enumerate(ROWS[:2]):
                 _curve(grid[row, column], on_curve(points, what), measure, scale, LOOKS["full"][1])
                 _level(grid[row, column], own, measure, scale, LOOKS["own_schedule"][1])
-                grid[row, column].set_ylim(bottom=0.0)
                 if column == 0:
                     grid[row, column].set_ylabel(name)
             grid[-1, column].set_xlabel(label)
+        for axes in grid[:, 0]:
+            axes.set_ylim(bottom=0.0)
         grid[0, 2].set_xscale("log")
         grid[0, 2].xaxis.set_major_formatter("{x:g}")
         grid[0, 2].minorticks_off()

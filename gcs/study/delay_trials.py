@@ -33,7 +33,7 @@ def delays_s(margin_s: float, shares: Sequence[float]) -> list[float]:
     """Whole ticks near shares of a margin, those below it rounded down, and those above it up."""
     ticks = (margin_s * share / TICK_S for share in shares)
     return [
-        TICK_S * max(1, math.floor(tick) if share < 1.0 else math.ceil(tick))
+        round(TICK_S * max(1, math.floor(tick) if share < 1.0 else math.ceil(tick)), 6)
         for tick, share in zip(ticks, shares, strict=True)
     ]
 

@@ -19,9 +19,9 @@ def error_of(text: str) -> str:
     return message
 
 
-def test_four_scenarios_ship_with_nine_vehicles_each() -> None:
-    assert shipped_scenarios() == ["mountains", "radars", "ridge", "vee"]
-    assert [len(load_scenario(name).vehicles) for name in shipped_scenarios()] == [9, 9, 9, 9]
+def test_five_scenarios_ship() -> None:
+    assert shipped_scenarios() == ["crossing", "mountains", "radars", "ridge", "vee"]
+    assert [len(load_scenario(name).vehicles) for name in shipped_scenarios()] == [5, 9, 9, 9, 9]
 
 
 @pytest.mark.parametrize(

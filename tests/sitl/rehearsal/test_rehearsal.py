@@ -142,6 +142,29 @@ def test_so_it_is_without_neighbours_and_as_plain_autopilots(
     assert_same(swarm(vee, network, arm), missions, tmp_path)
 
 
+def test_vehicles_with_gains_of_their_own_fly_as_their_endpoints_do(
+    vee: Scenario, missions: dict[int, Mission], tmp_path: Path
+) -> None:
+    configs = swarm(vee, Network(SYSIDS, edges("ring", SYSIDS), Channel(5)))
+    unlike = [replace(config, gains=config.gains._replace(k0=0.01 * (config.sysid == 2))) for config in configs]
+    assert_same(unlike, missions, tmp_path)
+    assert rehearse(unlike, missions).truth[1].tobytes() != rehearse(configs, missions).truth[1].tobytes()
+
+
+def test_thrust_and_speed_against_the_schedule_are_told_of_every_tick(
+    vee: Scenario, missions: dict[int, Mission]
+) -> None:
+    flown = rehearse(swarm(vee, Network(SYSIDS, edges("ring", SYSIDS), Channel(5))), missions)
+    for sysid in SYSIDS:
+        truth, thrust, rate = flown.truth[sysid], flown.thrust_n[sysid], flown.along_rate_m_s[sysid]
+        assert len(thrust) == len(rate) == len(truth)
+        assert np.all((thrust >= 0.0) & (thrust <= vee.airframe.static_thrust_n))
+        end = flown.arrived[sysid]
+        assert end is not None
+        assert np.all(np.isfinite(rate[: end + 1]))
+        assert np.all(np.isnan(rate[end + 1 :]))
+
+
 def test_what_it_cannot_fly_it_refuses_by_the_vehicles_name(vee: Scenario, missions: dict[int, Mission]) -> None:
     network = Network(SYSIDS, edges("ring", SYSIDS), Channel(5))
     landing = Mission((*missions[2].items[:-1], replace(missions[2].items[-1], command=Command.NAV_LOITER_TURNS)))
