@@ -52,7 +52,12 @@ class SwarmClock:
         self._ask({"do": "release"}, sysids)
 
     def start(self, sysids: Iterable[int], at_s: float | None = None) -> None:
-        """Release the clocks of these vehicles to one moment, UNIX time; None for soon. Raises as `release`."""
+        """Release the clocks of these vehicles so that their next tick begins at one moment. Raises as `release`.
+
+        Args:
+            sysids: of the vehicles.
+            at_s: UNIX time, by the clocks of all their machines; None for soon.
+        """
         self._ask({"do": "release", "at": time.time() + START_IN_S if at_s is None else at_s}, sysids)
 
     def hold(self, sysids: Iterable[int]) -> None:

@@ -136,7 +136,11 @@ def test_in_real_time_the_others_fly_on_past_one_that_is_stopped_and_it_rejoins_
     without = [used["t_s"] for used in metrics["graph"] if [1, 2] not in used["edges"] and used["t_s"] > 10.0]
     again = [used["t_s"] for used in metrics["graph"] if [1, 2] in used["edges"]]
     assert min(without) < max(again), "it was left out, and taken in again"
-    assert metrics["formation"]["late_samples"] > 0
+    formation, links = metrics["formation"], metrics["links"]
+    assert {(1, 2), (2, 1), (2, 3), (3, 2)} <= {(link["sender"], link["receiver"]) for link in links}
+    assert formation["late_samples"] == sum(link["late"] for link in links) > 0
+    assert formation["lost_samples"] == sum(link["lost"] for link in links)
+    assert formation["measured_delay_s"] > 0.2, "the injected delay, and the real one"
     assert metrics["behind_s"] > 1.0
 
 
