@@ -22,12 +22,15 @@ class SwarmClock:
         session: told to connect to all endpoints.
         swarm: the swarm's name.
         sysids: of the vehicles; their liveliness tokens are waited for, since an endpoint declares its clock before.
+        patience_s: to wait for each of them; None for as long as vehicles on one machine take.
 
     Raises:
         InputError: some of them cannot be reached.
     """
 
-    def __init__(self, session: zenoh.Session, swarm: str, sysids: Iterable[int]) -> None:
+    def __init__(
+        self, session: zenoh.Session, swarm: str, sysids: Iterable[int], patience_s: float | None = None
+    ) -> None:
         self._session = session
         self._key = clock_key(swarm)
         missing = set(sysids)
@@ -37,7 +40,7 @@ class SwarmClock:
         )
         try:
             while missing:
-                missing.discard(sysid_of(str(tokens.get(timeout=TIMEOUT_S).key_expr), swarm))
+                missing.discard(sysid_of(str(tokens.get(timeout=patience_s or TIMEOUT_S).key_expr), swarm))
         except queue.Empty:
             raise InputError(f"vehicles {sorted(missing)} cannot be reached over Zenoh") from None
         finally:
@@ -52,7 +55,12 @@ class SwarmClock:
         self._ask({"do": "release"}, sysids)
 
     def start(self, sysids: Iterable[int], at_s: float | None = None) -> None:
-        """Release the clocks of these vehicles to one moment, UNIX time; None for soon. Raises as `release`."""
+        """Release the clocks of these vehicles so that their next tick begins at one moment. Raises as `release`.
+
+        Args:
+            sysids: of the vehicles.
+            at_s: UNIX time, by the clocks of all their machines; None for soon.
+        """
         self._ask({"do": "release", "at": time.time() + START_IN_S if at_s is None else at_s}, sysids)
 
     def hold(self, sysids: Iterable[int]) -> None:

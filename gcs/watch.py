@@ -131,7 +131,7 @@ def _news(status: VehicleStatus, link: VehicleLink, endpoint: Endpoint, announce
     elif not status.silent and link.silent_s > SILENT_S:
         status.silent = True
         yield _told(status, f"has not answered for {SILENT_S:g} s", announce)
-    elif status.silent and link.heard:
+    elif status.silent and link.silent_s <= SILENT_S:
         status.silent = False
         yield _told(status, "answers again", announce)
 

@@ -79,6 +79,7 @@ def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
         clock = Clock(held=config.held, speed=config.speed, real_time=config.real_time)
         exchange = _exchange(config, session, endpoints, clock)
         clock.on_stop = exchange.stop
+        clock.tick = config.endpoints[0].start_tick
         ending.stop = clock.stop
         alive: dict[int, zenoh.LivelinessToken] = {}
 

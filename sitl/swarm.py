@@ -19,7 +19,8 @@ from sitl.formation.vehicle_gains import vehicle_gains
 from sitl.process import ProcessConfig
 from sitl.scenario_network import network_of
 from sitl.stands import stands
-from sitl.zenoh_session import discard_sockets, local_peers, make_socket_folder
+from sitl.zenoh_network import STATION, ZenohNetwork, vehicle_name
+from sitl.zenoh_session import Peer, discard_sockets, local_peers, make_socket_folder
 
 START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
@@ -47,6 +48,8 @@ class SwarmOptions:
         count: of vehicles, when not the scenario's (see `stands`).
         sysid_base: system id of the first vehicle, when not the scenario's.
         per_process: vehicles that share a process; None chooses.
+        zenoh: how vehicles on several machines meet; None for all on this one.
+        here: system ids of the vehicles that run on this machine; None for all.
     """
 
     seed: int
@@ -63,6 +66,8 @@ class SwarmOptions:
     count: int | None = None
     sysid_base: int | None = None
     per_process: int | None = None
+    zenoh: ZenohNetwork | None = None
+    here: frozenset[int] | None = None
 
 
 class Swarm:
@@ -72,18 +77,32 @@ class Swarm:
         scenario: whose vehicles they are.
         options: how they are simulated.
 
+    Attributes:
+        sysids: of the whole swarm, on whatever machine.
+        endpoints: those on this machine.
+
     Raises:
         InputError: an endpoint could not start; the message says which and why.
     """
 
     def __init__(self, scenario: Scenario, options: SwarmOptions) -> None:
-        self.name = uuid.uuid4().hex[:8]
+        self._options = options
+        self.name = options.zenoh.swarm if options.zenoh else uuid.uuid4().hex[:8]
+        everyone = vehicle_configs(scenario, options)
+        self.sysids = tuple(vehicle.sysid for vehicle in everyone)
         endpoints = [
-            _endpoint_config(i, vehicle, options) for i, vehicle in enumerate(vehicle_configs(scenario, options))
+            _endpoint_config(i, vehicle, options)
+            for i, vehicle in enumerate(everyone)
+            if options.here is None or vehicle.sysid in options.here
         ]
-        size = per_process(options.per_process, len(endpoints))
+        if options.here and (unknown := options.here - set(self.sysids)):
+            raise InputError(f"vehicles {sorted(unknown)}: not in this swarm; it has {list(self.sysids)}")
+        size = 1 if options.zenoh else per_process(options.per_process, len(endpoints))
         groups = [tuple(endpoints[i : i + size]) for i in range(0, len(endpoints), size)]
-        self._peers, self.station_peer = local_peers(range(len(groups)))
+        if options.zenoh:
+            self._peers = {i: options.zenoh.client(vehicle_name(one.vehicle.sysid)) for i, (one,) in enumerate(groups)}
+        else:
+            self._peers, self._station_peer = local_peers(range(len(groups)))
         self._processes: list[EndpointProcess] = []
         self.endpoints: dict[int, Endpoint] = {}
         try:
@@ -102,6 +121,11 @@ class Swarm:
         except BaseException:
             self.end()
             raise
+
+    @property
+    def station_peer(self) -> Peer:
+        """Session of a station that goes by the swarm's clocks. Raises InputError when its certificate is no use."""
+        return self._options.zenoh.client(STATION) if self._options.zenoh else self._station_peer
 
     def restart(self, sysid: int, tick: int = 0) -> None:
         """Start the ended process of a vehicle again, and with it those that share it; they remember what they had.

@@ -2,7 +2,7 @@
 
 Peers listen on sockets of their own and connect to those that they are told; nobody scouts. In lockstep the leases are
 long, since a paused process must lose nothing; one that has ended is noticed at once, by its closed socket. In real
-time one that is silent for a second has gone, until it is back.
+time one that is silent for two seconds has gone, until it is back.
 """
 
 import contextlib
@@ -12,20 +12,36 @@ import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import zenoh
 
+from missions.errors import InputError
+from sitl.zenoh_tls import Tls, why_refused
+
 UNIX = "unixsock-stream/"
 LEASE_MS = 3_600_000
-LIVE_LEASE_MS = 1000
+LIVE_LEASE_MS = 2000
+"""As long as samples are carried on by default: a shorter silence, of a machine that is busy, changes no graph."""
+ROUTER_TIMEOUT_MS = 5000
 
 
 @dataclass(frozen=True)
 class Peer:
-    """Where a session listens and connects to, as Zenoh endpoints ("unixsock-stream/path", "tcp/host:port")."""
+    """Where a session listens and connects to, as Zenoh endpoints ("unixsock-stream/path", "tcp/host:port").
+
+    Attributes:
+        listen, connect: endpoints.
+        mode: of the session; a client has one router to connect to.
+        tls: its certificates; None for none.
+        access_control: a router's rules; None lets everybody do everything.
+    """
 
     listen: tuple[str, ...]
     connect: tuple[str, ...]
+    mode: Literal["peer", "client", "router"] = "peer"
+    tls: Tls | None = None
+    access_control: dict[str, object] | None = None
 
 
 def open_session(peer: Peer, *, real_time: bool = False) -> zenoh.Session:
@@ -36,21 +52,33 @@ def open_session(peer: Peer, *, real_time: bool = False) -> zenoh.Session:
         real_time: whether it goes when it falls silent, and does not hold up others.
 
     Raises:
+        InputError: a client has found no router, or is not let in; the message says which and why.
         zenoh.ZError: it cannot listen there.
     """
     config = zenoh.Config()
     for key, value in (_settings(peer) | _timing(real_time)).items():
         config.insert_json5(key, json.dumps(value))
-    return zenoh.open(config)
+    try:
+        return zenoh.open(config)
+    except zenoh.ZError:
+        if peer.mode != "client":
+            raise
+        host, _, port = peer.connect[0].partition("/")[2].rpartition(":")
+        raise InputError(f"router {peer.connect[0]}: {why_refused(host, int(port), peer.tls)}") from None
 
 
 def _settings(peer: Peer) -> dict[str, object]:
-    return {
-        "mode": "peer",
+    client = peer.mode == "client"
+    settings: dict[str, object] = {"mode": peer.mode}
+    if peer.tls is not None:
+        settings["transport/link/tls"] = peer.tls.settings()
+    if peer.access_control is not None:
+        settings["access_control"] = peer.access_control
+    return settings | {
         "listen/endpoints": list(peer.listen),
         "connect/endpoints": list(peer.connect),
-        "connect/timeout_ms": -1,
-        "connect/exit_on_failure": False,
+        "connect/timeout_ms": ROUTER_TIMEOUT_MS if client else -1,
+        "connect/exit_on_failure": client,
         "connect/retry": {"period_init_ms": 50, "period_max_ms": 200, "period_increase_factor": 1.5},
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,

@@ -15,6 +15,7 @@ from gcs.cli.plan import plan
 from gcs.cli.rehearse import rehearse
 from gcs.cli.replay import replay
 from gcs.cli.reproduce import reproduce
+from gcs.cli.router import router
 from gcs.cli.signing import signing
 from gcs.cli.sim import sim
 from gcs.cli.status import status
@@ -29,7 +30,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-ON_THIS_MACHINE = (demo, plan, sim, fly, rehearse, export, replay, bench, margin, reproduce)
+ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, export, replay, bench, margin, reproduce)
 WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)

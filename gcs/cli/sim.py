@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from sitl.swarm import Swarm
 
 WATCH_PERIOD_S = 0.5
+TOGETHER_S = 30.0
+"""Within which the vehicles of all machines are to be there."""
 
 CountOption = Annotated[
     int | None,
@@ -73,6 +75,19 @@ SigningKeyOption = Annotated[
     typer.Option("--signing-key", metavar="FILE", help="Key that the vehicles sign with, and their stations must."),
 ]
 
+ZenohOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--zenoh",
+        metavar="FILE",
+        help="Meet vehicles on other machines at a router (`skein router FILE`), as the file says: docs/real-time.md.",
+    ),
+]
+VehicleOption = Annotated[
+    str | None,
+    typer.Option("--vehicle", metavar="IDS", help="Run only these on this machine, such as 1,4-6, with --zenoh."),
+]
+
 
 def sim(
     scenario: ScenarioArgument = "radars",
@@ -89,6 +104,8 @@ def sim(
     wipe: WipeOption = False,
     per_process: PerProcessOption = None,
     signing_key: SigningKeyOption = None,
+    zenoh: ZenohOption = None,
+    vehicle: VehicleOption = None,
 ) -> None:
     """Leave a swarm running for any station: telemetry to UDP 14550, TCP at 5760, 5770, ... Ends with Ctrl-C.
 
@@ -96,15 +113,21 @@ def sim(
     """
     with exit_codes():
         from gcs.cli import output
+        from gcs.cli.station import chosen_sysids
         from gcs.cli.tables import endpoint_table, ways_to_connect
         from gcs.signing_key import read_signing_key
         from gcs.sim_ports import parse_station, require_free_tcp, tcp_base, udp_port
         from gcs.state_folder import StateFolder, default_state_folder
+        from gcs.zenoh_file import read_zenoh_file
+        from missions.errors import InputError
         from missions.scenario import load_scenario
         from sitl.services.links import LOOPBACK
         from sitl.swarm import Swarm, SwarmOptions
 
         loaded = load_scenario(scenario)
+        if vehicle is not None and zenoh is None:
+            raise InputError("--vehicle: the others must be somewhere; say where they meet with --zenoh")
+        here = chosen_sysids(vehicle)
         stations = [parse_station(text) for text in udp] if udp else [(LOOPBACK, udp_port(instance))]
         first_port = tcp_base(instance) if tcp_port is None else tcp_port
         with StateFolder(state or default_state_folder(loaded.name, instance)) as memory:
@@ -123,6 +146,8 @@ def sim(
                 count=count,
                 sysid_base=sysid_base,
                 per_process=per_process,
+                zenoh=read_zenoh_file(zenoh) if zenoh else None,
+                here=frozenset(here) if here else None,
             )
             if first_port:
                 require_free_tcp(first_port, count or len(loaded.vehicles))
@@ -130,7 +155,8 @@ def sim(
                 output.out.print(endpoint_table(loaded.name, swarm))
                 for line in ways_to_connect(swarm, stations, memory.path):
                     output.out.print(line, soft_wrap=True)
-                if _enter_pressed() if held else real_time:
+                # Of several machines, one starts the clocks: where Enter is pressed, or the first vehicle runs.
+                if _enter_pressed() if held else real_time and swarm.sysids[0] in swarm.endpoints:
                     _release(swarm)
                 output.out.print("Ctrl-C ends the simulation.")
                 _watch(swarm)
@@ -155,7 +181,7 @@ def _release(swarm: "Swarm") -> None:
     from sitl.zenoh_session import open_session
 
     with open_session(swarm.station_peer) as session:
-        SwarmClock(session, swarm.name, swarm.endpoints).start(swarm.endpoints)
+        SwarmClock(session, swarm.name, swarm.sysids, TOGETHER_S).start(swarm.sysids)
 
 
 def _watch(swarm: "Swarm") -> None:

@@ -13,6 +13,7 @@ import mavsdk
 import pytest
 from mavsdk.plugins.action import action
 from mavsdk.plugins.mission_raw import mission_raw
+from pymavlink import mavutil
 
 from missions.scenario import load_scenario
 from planner.plan import plan
@@ -63,3 +64,28 @@ def test_mavsdk_uploads_downloads_arms_and_flies(ports: list[int], short_scenari
 def fields(item: Any) -> tuple[Any, ...]:
     """What the wire carries of an item, but for the "current" flag."""
     return (item.seq, item.frame, item.command, item.param1, item.param2, item.param3, item.x, item.y, item.z)
+
+
+def test_in_real_time_the_clocks_go_by_themselves_and_tell_of_late_and_lost_samples(short_scenario: Path) -> None:
+    command = [sys.executable, "-m", "gcs.main", "sim", str(short_scenario), "--count", "2", "--tcp-port", "0"]
+    sim = subprocess.Popen([*command, "--real-time"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert sim.stdout is not None
+    lines = list(iter(sim.stdout.readline, "Ctrl-C ends the simulation.\n"))
+    port = next(int(port) for line in lines for port in re.findall(r"^│ \d+ .*?127\.0\.0\.1:(\d+) ", line))
+    station = mavutil.mavlink_connection(f"tcp:127.0.0.1:{port}")
+    station.mav.heartbeat_send(6, 8, 0, 0, 0)
+    request = (1, 1, mavutil.mavlink.MAV_CMD_REQUEST_MESSAGE, 0, mavutil.mavlink.MAVLINK_MSG_ID_NAMED_VALUE_FLOAT)
+    station.mav.command_long_send(*request, *[0.0] * 6)
+    times_ms, names = set(), set()
+    while len(times_ms) < 2 or "FormLost" not in names:
+        message = station.recv_match(blocking=True, timeout=PATIENCE_S)
+        assert message is not None, (times_ms, names)
+        if message.get_type() == "ATTITUDE":
+            times_ms.add(message.time_boot_ms)
+        elif message.get_type() == "NAMED_VALUE_FLOAT":
+            names.add(message.name)
+    station.close()
+    sim.send_signal(signal.SIGINT)
+    _, err = sim.communicate(timeout=20)
+    assert sim.returncode == 130, err
+    assert names == {"FormErr", "FormDelay", "FormLate", "FormLost"}
