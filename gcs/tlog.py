@@ -1,6 +1,7 @@
 """Telemetry logs: each frame behind its time, as Mission Planner and mavlogdump read them."""
 
 import struct
+import time
 from pathlib import Path
 
 from missions.errors import InputError
@@ -14,22 +15,23 @@ class TelemetryLog:
 
     Args:
         path: file to write.
-        start_s: wall time (Unix) that simulated time 0 is stamped with.
+        start_s: wall time (Unix) that simulated time 0 is stamped with; None stamps with the time of day.
     """
 
-    def __init__(self, path: Path, start_s: float) -> None:
+    def __init__(self, path: Path, start_s: float | None) -> None:
         try:
             self._file = path.open("wb", buffering=0)
         except OSError as error:
             raise InputError(f"{path}: {error.strerror}; choose a folder that can be written to") from error
         self._path = path
-        self._start_us = round(start_s * 1e6)
+        self._start_us = None if start_s is None else round(start_s * 1e6)
         self._waiting = bytearray()
         self._failure: OSError | None = None
 
     def write(self, simulated_ms: int, frame: bytes) -> None:
-        """Add one frame, stamped with the start plus the simulated time; nothing once closed, or after a failure."""
-        self._waiting += STAMP.pack(self._start_us + simulated_ms * 1000)
+        """Add one frame with its time; nothing once closed, or after a failure."""
+        at_us = time.time_ns() // 1000 if self._start_us is None else self._start_us + simulated_ms * 1000
+        self._waiting += STAMP.pack(at_us)
         self._waiting += frame
 
     def flush(self) -> None:

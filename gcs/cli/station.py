@@ -126,9 +126,11 @@ async def results_of(
     from gcs.cli import output
     from gcs.fleet import Fleet
     from gcs.links.open_link import open_link
+    from gcs.station_logs import station_logs
     from gcs.transfers.for_all import for_all
 
-    async with Fleet(signing=signing_of(options.signing_key), announce=output.progress.print) as fleet:
+    signing = signing_of(options.signing_key)
+    async with Fleet(station_logs(), signing=signing, announce=output.progress.print) as fleet:
         for url in options.connect or [DEFAULT_URL]:
             fleet.attach(await open_link(url))
         if sysids is None:

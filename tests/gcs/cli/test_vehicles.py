@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from pymavlink import mavutil
 from typer.testing import Result
 
 from gcs.run_folder import RunFolder
@@ -50,6 +51,26 @@ def test_status_over_the_udp_port_tells_programs_the_same(swarm: Any, skein: Any
     assert (first["sysid"], third["sysid"]) == (1, 3)
     assert first["result"]["answers"] is third["result"]["answers"] is True
     assert first["result"]["address"].startswith("udp 127.0.0.1:")
+
+
+def test_commands_keep_logs_where_the_operator_wants_them(
+    swarm: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SKEIN_LOGS", str(tmp_path / "logs"))
+    before_s = time.time()
+    assert swarm("params", "get", "RTL_ALTITUDE", "--vehicle", "1-2").exit_code == 0
+    first, second, *_ = sorted((tmp_path / "logs").iterdir())
+    assert (first.name[:2], second.name[:2], first.suffix) == ("1-", "2-", ".tlog")
+    log = mavutil.mavlink_connection(str(first))
+    kinds = {}
+    while (message := log.recv_msg()) is not None:
+        kinds[message.get_type()] = message._timestamp
+    log.close()
+    assert {"PARAM_REQUEST_READ", "PARAM_VALUE", "HEARTBEAT"} <= kinds.keys()
+    assert all(before_s - 1 <= stamp <= time.time() for stamp in kinds.values())
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("SKEIN_LOGS", str(tmp_path / "file"))
+    assert refusal(swarm("arm")).startswith("SKEIN_LOGS: ")
 
 
 def test_missions_of_a_run_go_up_come_down_and_are_cleared(swarm: Any, run_folder: Path, tmp_path: Path) -> None:
