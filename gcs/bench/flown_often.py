@@ -14,7 +14,9 @@ from planner.verify import require, verify
 
 FAULTY = ("radars", "mountains", "vee")
 SCHEDULES = 200
-IN_GUSTS = ("vee", "crossing")
+FORMATION = "vee"
+"""Whose ways lead side by side; those of the other scenario in gusts cross."""
+IN_GUSTS = (FORMATION, "crossing")
 GUSTS = "moderate"
 SEEDS = 1000
 

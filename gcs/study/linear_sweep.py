@@ -10,7 +10,7 @@ from sitl.formation.linear_formation import LinearFormation, linear_formation
 from sitl.formation.margin import Level, margin_s, mode_margins
 from sitl.ticks import TICK_S
 
-BARE, FLOWN, TICKS = "bare", "flown", "flown, ticks"
+BARE, FLOWN, TICKS = "bare", "flown", "flown in ticks"
 PIN_ALL, PIN_ONE = "all", "one"
 SHARES = (0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.98, 1.02, 1.05, 1.1, 1.15, 1.2, 1.3, 1.4, 1.5)
 """Of the margin."""
@@ -26,7 +26,7 @@ class Growth:
 
     Attributes:
         graph, law: "bare": the law (15) with unit weights and no k0; "flown": weights and gains of the scenario;
-            "flown, ticks": computed once a tick.
+            "flown in ticks": computed once a tick.
         delay_s: of the corrections.
         margin_s: of this graph and law.
         rate_1_s: at which a disturbance grows.

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from gcs.study.faults import MOST_KILLED, draw_faults
@@ -13,6 +13,7 @@ RADARS = load_scenario("radars")
 swarms = st.sets(st.integers(1, 250), min_size=3, max_size=9).map(sorted)
 
 
+@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(seed=st.integers(0, 2**40), sysids=swarms)
 def test_schedules_repeat_and_leave_two_vehicles_or_more(seed: int, sysids: Sequence[int]) -> None:
     faults = draw_faults(seed, sysids, 500.0)

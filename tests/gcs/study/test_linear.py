@@ -26,7 +26,7 @@ def bare(kind: str) -> LinearFormation:
 @pytest.mark.parametrize("name", GRAPHS)
 def test_disturbances_die_out_below_the_margin_and_grow_above_it(name: str) -> None:
     found = growths(VEE, name, GRAPHS[name])
-    assert {growth.law for growth in found} == {"bare", "flown", "flown, ticks"}
+    assert {growth.law for growth in found} == {"bare", "flown", "flown in ticks"}
     for growth in found:
         if abs(growth.share - 1.0) > 0.015:
             assert (growth.rate_1_s > 0.0) == (growth.share > 1.0), growth
