@@ -70,7 +70,7 @@ def test_commands_keep_logs_where_the_operator_wants_them(
     assert all(before_s - 1 <= stamp <= time.time() for stamp in kinds.values())
     (tmp_path / "file").touch()
     monkeypatch.setenv("SKEIN_LOGS", str(tmp_path / "file"))
-    assert refusal(swarm("arm")).startswith("SKEIN_LOGS: ")
+    assert refusal(swarm("arm")).startswith("skein: SKEIN_LOGS: ")
 
 
 def test_missions_of_a_run_go_up_come_down_and_are_cleared(swarm: Any, run_folder: Path, tmp_path: Path) -> None:
