@@ -116,7 +116,7 @@ def start_sim(short_scenario: Path, state_home: Path) -> Callable[..., Any]:
     return lambda *options: running(short_scenario, state_home, *options)
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="module")
 def swarm(start_sim: Callable[..., Any]) -> Iterator[Sim]:
     """Three vehicles at ten times real time."""
     with start_sim("--speed", 10) as sim:
