@@ -30,7 +30,7 @@ floors: .venv/.tested
 	$(BIN)/lint-imports
 
 unit: .venv/.tested
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto --maxprocesses 4 --dist loadfile
 
 soak: .venv/.installed
 	$(BIN)/python -m gcs.bench.soak
