@@ -110,6 +110,7 @@ class PlanServer:
         if self._refused_in_flight("upload", mavlink.MAV_MISSION_DENIED, station):
             return
         if message.count > limit:
+            self._end_own_upload(station)
             self._warn(f"{self._name} of {message.count} items refused: at most {limit} items")
             self._ack(station, mavlink.MAV_MISSION_NO_SPACE)
         elif message.count == 0:
@@ -279,6 +280,7 @@ class PlanServer:
     def _refused_in_flight(self, what: str, result: int, station: Station) -> bool:
         if not self.flying_it():
             return False
+        self._end_own_upload(station)  # given up for what is refused
         self._warn(f"{self._name} {what} refused in AUTO: switch to LOITER first")
         self._ack(station, result)
         return True

@@ -170,7 +170,7 @@ class PlanMessages(RuleBasedStateMachine):
             self.time_s += 0.1
             self.server.on_tick()
         ended = [reply.mission_type for reply in self.replies if reply.get_type() == "MISSION_ACK"]
-        assert sorted(ended) == running
+        assert sorted(set(ended)) == running, "told at least once; more often where much is lost"
         assert self.server.deadline_s == float("inf")
 
 
