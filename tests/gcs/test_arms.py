@@ -8,48 +8,25 @@ import pytest
 
 from gcs.metrics.formation_error import formation_error
 from gcs.metrics.tracks import tracks
-from gcs.truth import read_truths
-from missions.plan_type import PlanType
+from gcs.rehearsal import RehearsalOptions, rehearse_plan
 from missions.scenario import load_scenario
 from planner.plan import plan
 from sitl.config import Arm
-from sitl.formation.correction import Correction
 from sitl.formation.graph import edges
-from sitl.modes import Mode
-from sitl.swarm import SwarmOptions, vehicle_configs
-from sitl.ticks import TICK_S, delay_ticks
-from sitl.truth import TruthWriter
-from sitl.vehicle import Vehicle
-
-VEE = load_scenario("vee")
-PLAN = plan(VEE)
 
 
 @pytest.fixture(scope="module")
-def rms_m(tmp_path_factory: pytest.TempPathFactory) -> dict[Arm, float]:
-    """Formation error of each arm, flown in one process with the endpoints' own vehicles, tick by tick."""
-    return {arm: fly(arm, tmp_path_factory.mktemp(arm)) for arm in get_args(Arm)}
+def rms_m() -> dict[Arm, float | None]:
+    """Formation error of each arm."""
+    vee = load_scenario("vee")
+    planned = plan(vee)
+    references = planned.references(vee)
 
+    def fly(arm: Arm) -> float | None:
+        truths, _ = rehearse_plan(vee, planned, RehearsalOptions(seed=1, delay_s=0.2, arm=arm))
+        return formation_error(tracks(references, truths), edges("ring", list(references))).overall_rms_m
 
-def fly(arm: Arm, folder: Path) -> float:
-    references = PLAN.references(VEE)
-    vehicles = []
-    for config, uav in zip(vehicle_configs(VEE, SwarmOptions(seed=1, delay_s=0.2, arm=arm)), PLAN.uavs, strict=True):
-        vehicle = Vehicle(config, TruthWriter(folder / f"{config.sysid}.f64"))
-        vehicle.load(PlanType.MISSION, uav.mission.items)
-        vehicle.arm()
-        vehicle.set_mode(Mode.AUTO)
-        vehicles.append(vehicle)
-    said: list[dict[int, Correction]] = []
-    for tick in range(round(max(r.duration_s for r in references.values()) / TICK_S)):
-        said.append({vehicle.sysid: vehicle.observe() for vehicle in vehicles})
-        heard = said[tick - delay_ticks(0.2)] if tick >= delay_ticks(0.2) else {}
-        for vehicle in vehicles:
-            vehicle.advance(heard)
-    for vehicle in vehicles:
-        vehicle._truth.close()
-    truths = read_truths(folder, references)
-    return formation_error(tracks(references, truths), edges("ring", list(references))).overall_rms_m
+    return {arm: fly(arm) for arm in get_args(Arm)}
 
 
 def test_the_law_keeps_the_formation_within_a_quarter_of_plain_autopilots(rms_m: dict[Arm, float]) -> None:
