@@ -44,7 +44,7 @@ def delay(
     loss and bursts at the scenario's delay; all vehicles pinned to their schedules against one; and what travels along
     a line.
 
-    Example: skein study delay vee --quick --out /tmp/delay
+    Example: skein study delay vee --quick --out runs/delay
     """
     with exit_codes():
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
