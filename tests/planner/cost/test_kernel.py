@@ -144,9 +144,8 @@ def random_problem(rng: np.random.Generator) -> tuple[PathProblem, FloatArray]:
     radars = [(x[2 + i], y[2 + i], rng.uniform(0, 1500), radii[i], radii[i] * rng.uniform(0.3, 1)) for i in range(2)]
     obstacles = [(x[i], y[i], rng.uniform(100, 800), rng.uniform(200, 1500), 145.0) for i in (4, 5)]
     part = np.linspace(0, 1, 6)
-    other = np.column_stack(
-        [part * 20000, rng.uniform(-1500, 1500, 6), part * 1000, np.sort(np.append(rng.uniform(0, 1, 4), [0, 1]))]
-    )
+    times = np.append(0.0, np.cumsum(rng.uniform(0.3, 1.0, 5)))  # nobody so fast that samples would miss it
+    other = np.column_stack([part * 20000, rng.uniform(-1500, 1500, 6), part * 1000, times / times[-1]])
     p = problem(peaks=peaks, radars=radars, obstacles=obstacles, others=[other], target_z=1200.0)
     part = np.linspace(0, 1, 7)[1:-1, None]
     interior = p.origin_m + part * (p.target_m - p.origin_m) + rng.normal(size=(5, 3)) * (300, 800, 80) * rng.uniform()
