@@ -11,11 +11,12 @@ from missions.airframe import Airframe
 from missions.errors import InputError
 from missions.scenario.network import FormationModel
 from sitl.formation.damping import decay_rate
-from sitl.formation.graph import edges, parts
+from sitl.formation.graph import edges
 from sitl.formation.linear_formation import LinearFormation, common_mode, evenly_pinned, linear_formation, modes
 from sitl.formation.margin import Level, ModeMargin, aircraft_margin_s, limiting_mode, margin_s, mode_margins
 from sitl.formation.plant import aircraft_rates
 from sitl.formation.suggested_gains import suggested_gains
+from sitl.formation.topology import parts
 from sitl.ticks import TICK_S, delay_ticks
 
 LEVELS: tuple[Level, ...] = ("continuous", "sampled", "aircraft")

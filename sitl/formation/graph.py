@@ -62,14 +62,3 @@ def laplacian(sysids: Sequence[int], graph: Sequence[Edge], *, unit_weights: boo
             matrix[row[node], row[other]] = -a_pq
             matrix[row[node], row[node]] += a_pq
     return matrix
-
-
-def parts(sysids: Sequence[int], graph: Sequence[Edge]) -> list[list[int]]:
-    """The vehicles that are joined by edges, part by part; one part when the graph is connected (lambda_2 > 0)."""
-    part = {node: {node} for node in sorted(sysids)}
-    for p, q in graph:
-        if part[p] is not part[q]:
-            part[p] |= part[q]
-            for node in part[q]:
-                part[node] = part[p]
-    return sorted(sorted(nodes) for nodes in {id(nodes): nodes for nodes in part.values()}.values())

@@ -26,13 +26,14 @@ def repaired(graph: Iterable[Edge], gone: Collection[int]) -> tuple[Edge, ...]:
     return tuple(sorted((p, q) for p, others in near.items() for q in others if p < q))
 
 
-def parts(sysids: Collection[int], graph: Iterable[Edge]) -> list[set[int]]:
-    """The connected parts, that of the lowest sysid first."""
+def parts(sysids: Collection[int], graph: Iterable[Edge]) -> list[list[int]]:
+    """The vehicles that are joined by edges, part by part, in order; one when the graph is connected (lambda_2 > 0)."""
     near = {sysid: set[int]() for sysid in sysids} | _neighbours(graph)
-    left, found = set(sysids), []
+    left, found = set(sysids), list[list[int]]()
     while left:
-        found.append(_reached(min(left), near))
-        left -= found[-1]
+        part = _reached(min(left), near)
+        found.append(sorted(part))
+        left -= part
     return found
 
 

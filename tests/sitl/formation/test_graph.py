@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sitl.formation.graph import edges, laplacian, neighbour_weights, parts
+from sitl.formation.graph import edges, laplacian, neighbour_weights
 
 kinds = st.sampled_from(["ring", "line", "star", "complete"])
 swarms = st.sets(st.integers(1, 250), min_size=2, max_size=12).map(sorted)
@@ -35,13 +35,6 @@ def test_two_in_a_ring_share_one_edge_and_one_alone_has_none() -> None:
 
 def test_a_list_of_edges_is_a_graph_of_the_vehicles_that_there_are() -> None:
     assert edges([(3, 1), (2, 3), (3, 9)], [1, 2, 3]) == ((1, 3), (2, 3))
-
-
-def test_parts_are_one_where_lambda_2_is_positive() -> None:
-    sysids = [1, 2, 3, 5, 8]
-    assert parts(sysids, edges("line", sysids)) == [sysids]
-    assert parts(sysids, [(1, 5), (2, 8), (3, 5)]) == [[1, 3, 5], [2, 8]]
-    assert parts([4, 2], []) == [[2], [4]]
 
 
 def test_unit_weights() -> None:

@@ -39,4 +39,11 @@ def test_a_star_without_its_centre_becomes_a_line() -> None:
 
 def test_what_was_in_parts_before_stays_so() -> None:
     assert repaired([(1, 2), (3, 4), (4, 5)], {4}) == ((1, 2), (3, 5))
-    assert parts([1, 2, 3, 5, 9], [(1, 2), (3, 5)]) == [{1, 2}, {3, 5}, {9}]
+    assert parts([1, 2, 3, 5, 9], [(1, 2), (3, 5)]) == [[1, 2], [3, 5], [9]]
+
+
+def test_parts_are_one_where_lambda_2_is_positive() -> None:
+    sysids = [1, 2, 3, 5, 8]
+    assert parts(sysids, edges("line", sysids)) == [sysids]
+    assert parts(sysids, [(1, 5), (2, 8), (3, 5)]) == [[1, 3, 5], [2, 8]]
+    assert parts([4, 2], []) == [[2], [4]]
