@@ -1,5 +1,7 @@
 """Fixtures that several floors share."""
 
+import random
+import socket
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -16,6 +18,9 @@ from sitl.modes import Mode
 from sitl.parameters import INT16, REAL, Parameter, Parameters
 from sitl.snapshot import LandedState, Snapshot
 from sitl.store import Store
+
+PORTS = range(10_240, 32_768)
+"""Systems give out ports above these only."""
 
 HOME = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=465_000_000, lon_e7=113_000_000, alt_m=1200.0)
 
@@ -178,3 +183,21 @@ def make_mission() -> Callable[[int], Mission]:
 @pytest.fixture
 def frame() -> LocalFrame:
     return LocalFrame(46.5, 11.3, 0.0)
+
+
+@pytest.fixture(scope="session")
+def free_port() -> Callable[[], int]:
+    """Gives ports that are free, another each time. A port that the system gives out and takes back may be given to
+    whoever asks next, before it is used here."""
+
+    def is_free(port: int) -> bool:
+        try:
+            for kind in (socket.SOCK_STREAM, socket.SOCK_DGRAM):
+                with socket.socket(socket.AF_INET, kind) as trial:
+                    trial.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+        return True
+
+    ports = filter(is_free, iter(random.SystemRandom().sample(PORTS, len(PORTS))))
+    return lambda: next(ports)

@@ -2,10 +2,9 @@
 
 import json
 import signal
-import socket
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -20,14 +19,8 @@ from sitl.zenoh_session import clock_key, correction_key, open_session
 SKEIN = (sys.executable, "-m", "gcs.main")
 
 
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        port: int = server.getsockname()[1]
-        return port
-
-
 @pytest.fixture
-def field(tmp_path: Path) -> Path:
+def field(tmp_path: Path, free_port: Callable[[], int]) -> Path:
     file = tmp_path / "field.toml"
     file.write_text(f'swarm = "field"\nrouter = "tcp/127.0.0.1:{free_port()}"\n')
     return file

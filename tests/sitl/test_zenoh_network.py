@@ -2,7 +2,6 @@
 
 import queue
 import shutil
-import socket
 import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -53,14 +52,8 @@ def certificates(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        port: int = server.getsockname()[1]
-        return port
-
-
 @pytest.fixture(scope="module")
-def network(certificates: Path) -> Iterator[ZenohNetwork]:
+def network(certificates: Path, free_port: Callable[[], int]) -> Iterator[ZenohNetwork]:
     """With its router running."""
     network = ZenohNetwork(
         SWARM,
@@ -209,7 +202,7 @@ def test_files_that_do_not_fit_or_are_missing_are_named(network: ZenohNetwork, c
         replace(network, ca=certificates / "router.key").client(vehicle_name(1))
 
 
-def test_where_no_router_is_the_error_says_so() -> None:
+def test_where_no_router_is_the_error_says_so(free_port: Callable[[], int]) -> None:
     network = ZenohNetwork(SWARM, f"tcp/127.0.0.1:{free_port()}")
     with pytest.raises(InputError, match="no router answers there"):
         open_session(network.client(vehicle_name(1)))

@@ -4,11 +4,10 @@ import json
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -71,11 +70,8 @@ class Sim:
 
 
 @contextmanager
-def running(scenario: Path, state_home: Path, *options: object) -> Iterator[Sim]:
+def running(scenario: Path, state_home: Path, port: int, *options: object) -> Iterator[Sim]:
     """A swarm, from its start to its Ctrl-C."""
-    with closing(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
     process = subprocess.Popen(
         command_of_sim(scenario, "--udp", f"127.0.0.1:{port}", *options),
         stdout=subprocess.PIPE,
@@ -111,9 +107,9 @@ def state_home(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def start_sim(short_scenario: Path, state_home: Path) -> Callable[..., Any]:
+def start_sim(short_scenario: Path, state_home: Path, free_port: Callable[[], int]) -> Callable[..., Any]:
     """Swarms of the short scenario, by the options of `skein sim`, as contexts."""
-    return lambda *options: running(short_scenario, state_home, *options)
+    return lambda *options: running(short_scenario, state_home, free_port(), *options)
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 import asyncio
 import socket
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import closing
 from typing import Any
 
@@ -58,11 +58,8 @@ class Doubles:
 
 
 @pytest.fixture
-def doubles() -> Iterator[Doubles]:
-    with closing(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    with closing(Doubles(port)) as doubles:
+def doubles(free_port: Callable[[], int]) -> Iterator[Doubles]:
+    with closing(Doubles(free_port())) as doubles:
         yield doubles
 
 

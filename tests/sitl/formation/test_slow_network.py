@@ -5,7 +5,7 @@ import queue
 import socket
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 
@@ -62,10 +62,9 @@ def relay(port: int) -> Iterator[int]:
 
 
 @pytest.fixture
-def router() -> Iterator[int]:
+def router(free_port: Callable[[], int]) -> Iterator[int]:
     """The port of a router."""
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        port: int = server.getsockname()[1]
+    port = free_port()
     with open_session(ZenohNetwork(SWARM, f"tcp/127.0.0.1:{port}").server(), real_time=True):
         yield port
 
