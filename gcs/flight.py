@@ -25,6 +25,7 @@ from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from planner.verify import require, verify
 from sitl.config import Arm
+from sitl.formation.swarm_clock import longest_s
 from sitl.modes import Mode
 from sitl.reports import Ended
 from sitl.services.links import LOOPBACK
@@ -177,8 +178,11 @@ async def _fly_held(
 ) -> tuple[list[Event], dict[int, float]]:
     """Release the clocks, watch, and stop them; returns the events and when each lost vehicle was lost."""
     references = plan.references(scenario)
+    planned_s = {sysid: reference.duration_s for sysid, reference in references.items()}
+    latest_s = {i: longest_s(one_s) if scenario.formation.swarm_clock else one_s for i, one_s in planned_s.items()}
     statuses = [
-        VehicleStatus(uav.sysid, uav.name, references[uav.sysid].duration_s, len(uav.mission)) for uav in plan.uavs
+        VehicleStatus(uav.sysid, uav.name, planned_s[uav.sysid], latest_s[uav.sysid], len(uav.mission))
+        for uav in plan.uavs
     ]
     with open_session(swarm.station_peer) as session:
         clock = SwarmClock(session, swarm.name, swarm.endpoints)

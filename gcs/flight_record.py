@@ -1,8 +1,9 @@
 """What a flight was and what became of it, as far as the truth does not tell: figures of merit are made of both."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from gcs.truth import FloatArray
 from sitl.config import Arm
 from sitl.formation.graph import EdgeChange
 from sitl.formation.link_report import LinkReport
@@ -53,6 +54,8 @@ class FlightRecord:
         delay_margin_s: the `aircraft` margin of the formation; infinite when any delay is stable.
         edges: changes of who makes use of whose corrections; a lost vehicle's own are not known.
         links: what came of the links, as their receivers counted; a lost vehicle's own are not known.
+        shifts: by sysid: (n_tick, 2) rows of seconds that the schedule had been slowed and hurried; empty without a
+            swarm clock.
         real_time: whether the clock was the wall's; in lockstep otherwise.
         behind_s: wall time by which a vehicle fell behind that clock, at the most.
     """
@@ -68,5 +71,6 @@ class FlightRecord:
     delay_margin_s: float
     edges: tuple[EdgeChange, ...] = ()
     links: tuple[LinkReport, ...] = ()
+    shifts: Mapping[int, FloatArray] = field(default_factory=dict)
     real_time: bool = False
     behind_s: float = 0.0

@@ -82,5 +82,6 @@ def rehearse_plan(
         lost=lost,
         delay_margin_s=delay_margin_s(scenario),
         edges=tuple(flown.edges),
+        shifts=flown.shifts,
     )
     return flown.truth, record

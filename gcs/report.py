@@ -8,7 +8,7 @@ from gcs.figures import draw_all
 from gcs.flight_record import FlightRecord
 from gcs.metrics import Series, measure, shortfalls
 from gcs.run_folder import RunFolder
-from gcs.truth import Truths, read_truth, read_truths
+from gcs.truth import Truths, read_shifts, read_truth, read_truths
 from missions.errors import InputError
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
@@ -54,7 +54,8 @@ def write_report(run: RunFolder, scenario: Scenario, plan: FormationPlan, record
     for sysid in record.lost:
         with contextlib.suppress(InputError):  # lost before it had recorded anything
             truths[sysid] = read_truth(run.truth / f"{sysid}.f64")
-    report = report_on(scenario, plan, truths, _timed_by_truth(record, truths))
+    record = replace(_timed_by_truth(record, truths), shifts=read_shifts(run.truth, truths))
+    report = report_on(scenario, plan, truths, record)
     keep_report(run, scenario, plan, truths, report)
     return report
 

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from missions.errors import InputError
+from sitl.truth import shifts_file
 
 FloatArray = npt.NDArray[np.float64]
 Truths = Mapping[int, FloatArray]
@@ -41,6 +42,24 @@ def read_truth(path: Path) -> FloatArray:
     if not whole:
         raise InputError(f"{path}: no whole row of {row_bytes} bytes; the vehicle never flew, fly the run again")
     return np.frombuffer(data[:whole], dtype="<f8").reshape(-1, COLUMNS).astype(np.float64, copy=False)
+
+
+def read_shifts(folder: Path, sysids: Iterable[int]) -> dict[int, FloatArray]:
+    """What vehicles recorded of the swarm's clock, by sysid: (n_tick, 2) rows of seconds that their schedules had been
+    slowed and hurried. Without those that recorded nothing of the kind."""
+    shifts = {}
+    for sysid in sysids:
+        file = shifts_file(folder / f"{sysid}.f64")
+        if file.is_file():
+            data = file.read_bytes()
+            shifts[sysid] = np.frombuffer(data[: len(data) // 16 * 16], dtype="<f8").reshape(-1, 2)
+    return shifts
+
+
+def write_shifts(shifts: Truths, folder: Path) -> None:
+    """Write what `read_shifts` reads into an existing folder. Raises OSError."""
+    for sysid, rows in shifts.items():
+        shifts_file(folder / f"{sysid}.f64").write_bytes(rows.astype("<f8", copy=False).tobytes())
 
 
 def write_truths(truths: Truths, folder: Path) -> None:

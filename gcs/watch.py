@@ -27,7 +27,8 @@ class VehicleStatus:
     """What the station knows of one vehicle in flight.
 
     Attributes:
-        planned_arrival_s: simulated time.
+        planned_arrival_s: simulated time;
+        latest_arrival_s: the same, if the swarm's clock slows down as much as it can.
         items: of its mission.
         time_s: newest simulated time heard of.
         arrived_s: when it was first heard of at the end of its mission, simulated time; NaN before.
@@ -38,6 +39,7 @@ class VehicleStatus:
     sysid: int
     name: str
     planned_arrival_s: float
+    latest_arrival_s: float
     items: int
     time_s: float = 0.0
     mode: str = ""
@@ -109,7 +111,7 @@ async def watch_flight(
             return events
         if (now_s := max((status.time_s for status in left), default=0.0)) > newest_s:
             newest_s, moved_at = now_s, time.monotonic()
-        late = [status for status in flying if now_s - status.planned_arrival_s > OVERTIME_S]
+        late = [status for status in flying if now_s - status.latest_arrival_s > OVERTIME_S]
         if late:
             events.extend(Event(status.time_s, status.sysid, "did not arrive in time") for status in late)
             return events

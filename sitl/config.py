@@ -29,6 +29,7 @@ class VehicleConfig:
         gains: of the formation law.
         network: of its swarm.
         arm: how much of the law is on.
+        swarm_clock: the schedule is slowed and hurried with the neighbours'.
         real_time: nobody waits for anybody; in lockstep otherwise.
     """
 
@@ -45,4 +46,5 @@ class VehicleConfig:
     gains: Gains
     network: Network
     arm: Arm
+    swarm_clock: bool = False
     real_time: bool = False

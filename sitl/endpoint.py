@@ -65,7 +65,7 @@ class Endpoint:
         self._network = network = config.vehicle.network
         self.delays = self._delays_of(network.neighbours(self.sysid))
         self.death_tick = network.deaths.get(self.sysid, FOR_EVER)
-        self._truth = TruthWriter(config.truth)
+        self._truth = TruthWriter(config.truth, shifts=config.vehicle.swarm_clock)
         store = Store(config.memory)
         self._vehicle = Vehicle(config.vehicle, self._truth, store)
         self._vehicle.tick = config.start_tick

@@ -26,6 +26,7 @@ from sitl.formation.correction import Correction
 from sitl.formation.failures import within
 from sitl.formation.formation import Formation
 from sitl.formation.law import formation_acceleration
+from sitl.formation.swarm_clock import UNSHIFTED, Shifts, grown, own_needs, schedule_clock
 from sitl.guidance.path_errors import START, PathErrors, path_errors
 from sitl.guidance.path_law import (
     PLANNED_ROOM_M_S,
@@ -70,6 +71,7 @@ class Pilot:
         errors: its deviations from the path of that, as of this tick.
         in_formation: it keeps its schedule, and neighbours' corrections count.
         formation: what it hears of its neighbours.
+        shifts: of its schedule.
         commanded: a speed that goes before the stage's.
         reached: mission items, until they are taken out.
     """
@@ -84,6 +86,7 @@ class Pilot:
         self.errors: PathErrors | None = None
         self.commanded: Speed | None = None
         self.in_formation = False
+        self.shifts = UNSHIFTED
         self.reached: list[int] = []
         self._config = config
         self._airspeed_limits = airspeed_limits
@@ -129,7 +132,7 @@ class Pilot:
     def fly(self, stage: Stage) -> None:
         """Begin a stage, in the air or for the launch to come."""
         self.stage = stage
-        self.errors, self.in_formation = None, False
+        self.errors, self.in_formation, self.shifts = None, False, UNSHIFTED
         if isinstance(stage, PathStage):
             stage.started_tick = self.tick
             self.flight = at_point(self.flight, START)
@@ -137,7 +140,8 @@ class Pilot:
     def resume_schedule(self) -> None:
         """Let the schedule of the path begin where the aircraft is on it."""
         if isinstance(self.stage, PathStage):
-            self.stage.started_tick = self.tick - round(self.stage.time_at_s(self.flight.point.s_m) / TICK_S)
+            since_s = self.stage.time_at_s(self.flight.point.s_m) + self.shifts.slowed.sum_s - self.shifts.hurried.sum_s
+            self.stage.started_tick = self.tick - round(since_s / TICK_S)
 
     def launch(self) -> None:
         """Off the launcher, into the stage there is."""
@@ -168,7 +172,9 @@ class Pilot:
             if self.commanded is None and not stage.on_final and not within(self.tick, self._frozen):
                 self.in_formation = True
                 along, along_rate = errors.along, errors.along_rate
-        own = Correction(self._config.sysid, self.tick, self.tick, self.in_formation, along, along_rate)
+        sysid, tick, (slowed, hurried) = self._config.sysid, self.tick, self.shifts
+        shifts = (slowed.sum_s, slowed.rate, hurried.sum_s, hurried.rate)
+        own = Correction(sysid, tick, tick, self.in_formation, along, along_rate, *shifts)
         self._own.append(own)
         return own
 
@@ -176,8 +182,8 @@ class Pilot:
         """The deviations from a path and its schedule at this tick, and the place on it kept in mind."""
         flight = self.flight
         air, velocity = flight.air, ground_velocity(flight)
-        time_s = (self.tick - stage.started_tick) * TICK_S
-        errors, point = path_errors((air.x, air.y, air.h), velocity, time_s, flight.point, stage.tables)
+        clock = schedule_clock((self.tick - stage.started_tick) * TICK_S, self.shifts)
+        errors, point = path_errors((air.x, air.y, air.h), velocity, clock, flight.point, stage.tables)
         self.flight = at_point(flight, point)
         return errors
 
@@ -197,6 +203,8 @@ class Pilot:
             if errors is None:  # a station has changed the mode since `observe`
                 errors = self._errors_on(stage)
             ahead = self._ahead(errors)
+            if self._config.swarm_clock:
+                self._shift_schedule(errors)
             wanted = path_accelerations(errors, ahead, self.flight.air.V, aircraft.airframe)
             if stage.on_final:
                 aircraft = self._flapped
@@ -228,6 +236,14 @@ class Pilot:
         if self._config.arm == "plain" or not self.in_formation:
             return speed_acceleration(self.airspeed_wanted_m_s, self.flight.air.V)
         return formation_acceleration(errors, self._corrections, self._gains)
+
+    def _shift_schedule(self, errors: PathErrors) -> None:
+        """Slow or hurry the schedule as far as the own speed's limits, or the neighbours, would have it."""
+        slow = hurry = 0.0
+        if self.in_formation:
+            slow, hurry = own_needs(errors.along, self.flight.air, self.flight.controls, self._aircraft.airframe)
+            slow, hurry = max(slow, self.formation.needs[0]), max(hurry, self.formation.needs[1])
+        self.shifts = Shifts(grown(self.shifts.slowed, slow), grown(self.shifts.hurried, hurry))
 
     def _touch_down(self) -> None:
         ground_m = self._ground_m()

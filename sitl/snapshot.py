@@ -47,6 +47,7 @@ class Snapshot:
         ready: the pre-arm checks pass, or it is armed.
         failsafe: the station is lost, or a fence breached, and it does what is set for that.
         in_formation: it flies its schedule, and neighbours' corrections count.
+        schedule_shift_s: by how much the swarm's clock is ahead of its time; None where it has none.
         formation_delay_s: of the neighbours' corrections; in real time, as measured.
         late_samples, lost_samples: of theirs, so far; None in lockstep.
         fence_enabled: a fence is heeded.
@@ -80,6 +81,7 @@ class Snapshot:
     ready: bool = True
     failsafe: bool = False
     in_formation: bool = False
+    schedule_shift_s: float | None = None
     formation_delay_s: float = 0.0
     late_samples: int | None = None
     lost_samples: int | None = None

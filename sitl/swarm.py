@@ -232,6 +232,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             gains=vehicle_gains(formation, stand.sysid - shift),
             network=network,
             arm=options.arm,
+            swarm_clock=formation.swarm_clock and options.arm == "full",
             real_time=options.real_time,
         )
         for stand in everyone

@@ -221,9 +221,10 @@ class Vehicle:
     def snapshot(self) -> Snapshot:
         """What there is to know at this tick."""
         captain, pilot, fence, flying = self._captain, self._pilot, self._failsafes.fence, self.airborne
+        config = self._config
         flight, errors, stage = pilot.flight, pilot.errors, pilot.stage
         air = flight.air
-        thrust_fraction = flight.controls.thrust / thrust_max_n(air.V, self._config.airframe) if flying else 0.0
+        thrust_fraction = flight.controls.thrust / thrust_max_n(air.V, config.airframe) if flying else 0.0
         rolling = (air.V * math.cos(air.chi), air.V * math.sin(air.chi), 0.0)
         distance_m = 0.0
         if isinstance(stage, PathStage):
@@ -255,9 +256,10 @@ class Vehicle:
             ready=captain.armed or flying or self.prearm() is None,
             failsafe=self._failsafes.active,
             in_formation=pilot.in_formation,
-            formation_delay_s=mean_delay_s(self.links) or self._config.network.channel.delay_ticks * TICK_S,
-            late_samples=sum(link.late for link in self.links) if self._config.real_time else None,
-            lost_samples=sum(link.lost for link in self.links) if self._config.real_time else None,
+            schedule_shift_s=pilot.shifts.hurried.sum_s - pilot.shifts.slowed.sum_s if config.swarm_clock else None,
+            formation_delay_s=mean_delay_s(self.links) or config.network.channel.delay_ticks * TICK_S,
+            late_samples=sum(link.late for link in self.links) if config.real_time else None,
+            lost_samples=sum(link.lost for link in self.links) if config.real_time else None,
             fence_enabled=fence.enabled,
             breach_status=fence.breached,
             breach_count=fence.count,
@@ -279,7 +281,7 @@ class Vehicle:
         elif self._captain.armed and pilot.phase is Phase.PARKED:
             self._captain.launch()
         own = pilot.observe()
-        self._truth.write(pilot.flight.air)
+        self._truth.write(pilot.flight.air, pilot.shifts)
         return own
 
     def advance(self, heard: Mapping[int, Correction]) -> None:

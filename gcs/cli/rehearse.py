@@ -148,7 +148,7 @@ def rehearse_once(
     from gcs.rehearsal import RehearsalOptions, compile_rehearsal, rehearse_plan
     from gcs.report import keep_report, report_on
     from gcs.run_folder import make_run_folder
-    from gcs.truth import write_truths
+    from gcs.truth import write_shifts, write_truths
     from planner.verify import require, verify
 
     given = read_source(source)
@@ -171,5 +171,6 @@ def rehearse_once(
         run.write_plan(given.text, scenario, plan)
         run.begin_flight()
         write_truths(truths, run.truth)
+        write_shifts(record.shifts, run.truth)
         keep_report(run, scenario, plan, truths, report)
     show_report(report, run, json)

@@ -139,6 +139,9 @@ def formation_table(metrics: dict[str, Any]) -> Table:
     if metrics["real_time"]:
         rows.insert(7, ("real and injected delay, measured", f"{_shown(formation['measured_delay_s'], '.3f')} s"))
         rows.insert(8, ("most behind the clock, wall time", f"{metrics['behind_s']:.3f} s"))
+    if formation["slowed_s"] is not None:
+        shifts = f"{_shown(formation['slowed_s'], '.1f')} / {_shown(formation['hurried_s'], '.1f')} s"
+        rows.insert(2, ("swarm clock, slowed / hurried", shifts))
     counts = [formation[key] for key in ("late_samples", "lost_samples", "refused_samples")]
     if metrics["real_time"] or any(counts):
         rows.insert(-1, ("samples late / lost / refused", " / ".join(map(str, counts))))

@@ -17,6 +17,7 @@ from gcs.metrics.scheduled import scheduled
 from gcs.metrics.separation import least_separation_m
 from gcs.metrics.series import Series
 from gcs.metrics.surroundings import Surroundings, airborne_row, surroundings
+from gcs.metrics.swarm_time import SwarmTime, swarm_time
 from gcs.metrics.tracks import flown_tracks
 from gcs.truth import H, Truths, trajectory_sha256
 from missions.scenario import Scenario
@@ -51,6 +52,7 @@ class FormationMetrics:
 
     `measured_delay_s` is, in real time, the mean over all samples of the injected delay and the real one; samples were
     late that took a tick or more of real delay, lost that never came, refused that were not let in.
+    `slowed_s` and `hurried_s` are what the swarm's clock did to the schedule, and errors are of it then.
     `clearance_margin_m` is what is left above limits.clearance_m, which grows from 0 over limits.climb_out_m, and
     `min_wall_m` the least distance from an obstacle.
     """
@@ -68,6 +70,8 @@ class FormationMetrics:
     lost_samples: int
     refused_samples: int
     measured_delay_s: float | None
+    slowed_s: float | None
+    hurried_s: float | None
 
 
 @dataclass(frozen=True)
@@ -116,13 +120,17 @@ def measure(
     planned = planned or what_was_planned(scenario, plan)
     references = planned.references
     arrivals = {sysid: arrival(truth, references[sysid]) for sysid, truth in truths.items()}
-    common = flown_tracks(planned.tracks, truths)
+    time = swarm_time(record.shifts) if record.shifts else None
+    common = flown_tracks(planned.tracks, truths, time)
     series = Series(
         tracks=common,
         error=formation_error(common, edges),
         separation_m=least_separation_m(common.flown_m),
         references=references,
-        arrivals_s={sysid: end.time_s for sysid, end in arrivals.items()},
+        arrivals_s={
+            sysid: time.shown_at(end.time_s) if time is not None and end.time_s is not None else end.time_s
+            for sysid, end in arrivals.items()
+        },
     )
     around = [surroundings(positions, scenario) for positions in common.flown_m]
     late = [end.time_s - references[i].duration_s for i, end in arrivals.items() if end.time_s is not None]
@@ -146,7 +154,7 @@ def measure(
         vehicles=tuple(
             _vehicle(uav, references[uav.sysid].duration_s, arrivals.get(uav.sysid), record) for uav in plan.uavs
         ),
-        formation=_formation(series, around, late, record),
+        formation=_formation(series, around, late, record, time),
         timing=record.timing,
         events=tuple(sorted((*record.events, *scheduled(scenario), *arrived), key=lambda event: event.t_s)),
         graph=graph_used(record.edges),
@@ -178,7 +186,11 @@ def _vehicle(uav: UavPlan, planned_s: float, end: Arrival | None, record: Flight
 
 
 def _formation(
-    series: Series, around: Sequence[Surroundings], late_s: Sequence[float], record: FlightRecord
+    series: Series,
+    around: Sequence[Surroundings],
+    late_s: Sequence[float],
+    record: FlightRecord,
+    time: SwarmTime | None,
 ) -> FormationMetrics:
     known = series.separation_m[np.isfinite(series.separation_m)]
     return FormationMetrics(
@@ -195,6 +207,8 @@ def _formation(
         lost_samples=sum(link.lost for link in record.links),
         refused_samples=sum(sum(link.refused.values()) for link in record.links),
         measured_delay_s=mean_delay_s(record.links),
+        slowed_s=float(time.slowed_s[-1]) if time else None,
+        hurried_s=float(time.hurried_s[-1]) if time else None,
     )
 
 

@@ -25,7 +25,7 @@ class Series:
         tracks: positions, and the ticks that the arrays below are of.
         error: of the formation.
         separation_m: (n_tick,) the least between any two vehicles; NaN for fewer than two.
-        references, arrivals_s: what each vehicle was to fly, and when it arrived, by sysid.
+        references, arrivals_s: what each vehicle was to fly, and when it arrived by the swarm's clock, by sysid.
     """
 
     tracks: Tracks

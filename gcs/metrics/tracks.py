@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from gcs.metrics.swarm_time import SwarmTime
 from gcs.truth import H, Truths, X
 from missions.reference import Reference
 from sitl.ticks import TICK_S
@@ -16,7 +17,8 @@ FloatArray = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Tracks:
-    """Positions from tick 0 to the last planned arrival, rows in order of sysid.
+    """Positions from tick 0 to the last planned arrival, rows in order of sysid. Times are those of the swarm's clock,
+    where there is one.
 
     Attributes:
         sysids: of the vehicles.
@@ -43,14 +45,27 @@ def planned_tracks(references: Mapping[int, Reference]) -> Tracks:
     return Tracks(sysids, t_s, planned, np.full_like(planned, np.nan))
 
 
-def flown_tracks(planned: Tracks, truths: Truths) -> Tracks:
-    """The tracks of a flight of a plan; a vehicle without truth was never seen."""
+def flown_tracks(planned: Tracks, truths: Truths, time: SwarmTime | None = None) -> Tracks:
+    """The tracks of a flight of a plan; a vehicle without truth was never seen.
+
+    Args:
+        time: by the swarm's clock; None where it had none.
+    """
     flown = np.full_like(planned.planned_m, np.nan)
     for i, sysid in enumerate(planned.sysids):
         if sysid in truths:
-            rows = truths[sysid][: len(planned.t_s), X : H + 1]
+            rows = truths[sysid][:, X : H + 1]
+            if time is not None:
+                rows = _at(time.flown_at(planned.t_s), rows)
+            rows = rows[: len(planned.t_s)]
             flown[i, : len(rows)] = rows
     return replace(planned, flown_m=flown)
+
+
+def _at(t_s: FloatArray, rows: FloatArray) -> FloatArray:
+    """Rows (n_tick, k), one a tick, at other times (n,); NaN where there are none."""
+    ticks = t_s / TICK_S
+    return np.stack([np.interp(ticks, np.arange(len(rows)), column, right=np.nan) for column in rows.T], axis=1)
 
 
 def tracks(references: Mapping[int, Reference], truths: Truths) -> Tracks:

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, StrictBool, model_validator
 
 from missions.scenario.keys import Fraction, Keys, NotNegative, Number, Positive
 
@@ -23,6 +23,8 @@ class FormationModel(Keys):
     k0: NotNegative = 0.01
     pinned: tuple[Sysid, ...] | None = None
     """Vehicles with h_p = 1, the others have 0 and no k0; all unless given."""
+    swarm_clock: StrictBool = False
+    """Whether the schedule slows down, or hurries, for all when one vehicle can go no faster, or slower."""
     stale_s: Positive = 2.0
     """A sample that is older than its delay and jitter by so much counts no more: the edge is dropped."""
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from sitl.formation.channel import DRAWS
 from sitl.formation.correction import Correction
 from sitl.formation.law import Gains
-from sitl.formation.link import Link
+from sitl.formation.link import NO_NEEDS, Link
 from sitl.formation.live_link import LiveLink
 from sitl.formation.network import Network
 from sitl.noise import uniforms
@@ -22,10 +22,12 @@ class Formation:
 
     Attributes:
         edges: (tick, neighbour, whether its edge counts from then on), of each change so far.
+        needs: the rates at which the neighbours would have the schedule slow down, and hurry; of the last corrections.
     """
 
     def __init__(self, sysid: int, network: Network, seed: int, *, real_time: bool = False) -> None:
         self.edges: list[tuple[int, int, bool]] = []
+        self.needs = NO_NEEDS
         self._sysid = sysid
         self._network = network
         self._seed = seed
@@ -66,9 +68,12 @@ class Formation:
         """
         self._follow(tick)
         total = 0.0
+        self.needs = NO_NEEDS
         for other, link in self._links.items():
             link.hear(tick, heard.get(other))
             total += link.part(tick, own, self._weights.get(other, 0.0), gains)
+            if link.needs is not NO_NEEDS:
+                self.needs = (max(self.needs[0], link.needs[0]), max(self.needs[1], link.needs[1]))
             if link.used != self._used[other]:
                 self._used[other] = link.used
                 self.edges.append((tick, other, link.used))

@@ -10,10 +10,12 @@ from sitl.formation.channel import LOST, Channel, carried
 from sitl.formation.correction import Correction
 from sitl.formation.failures import Interval, within
 from sitl.formation.law import Gains, correction
+from sitl.formation.swarm_clock import neighbours_need
 from sitl.ticks import TICK_S
 
 FADE_S = 10.0
 """An edge that is new, or back, gains its weight evenly within this time, so that nobody jumps."""
+NO_NEEDS = (0.0, 0.0)
 NEVER = -1
 """No sample has been heard."""
 
@@ -55,6 +57,7 @@ class Link:
     Attributes:
         trust: share of its weight that the edge has.
         used: whether the edge counted at this tick.
+        needs: the rates at which the neighbour would have the schedule slow down, and hurry.
     """
 
     def __init__(
@@ -68,6 +71,7 @@ class Link:
         self.channel = channel
         self.trust = trust
         self.used = False
+        self.needs = NO_NEEDS
         self._draws = draws
         self._silences = list(silences)
         self._oldest_ticks = channel.delay_ticks + channel.jitter_ticks + stale_ticks
@@ -107,6 +111,7 @@ class Link:
             weight: a_pq; 0 while there is no such edge.
         """
         self.used = False
+        self.needs = NO_NEEDS
         sample = self._sample
         if sample is None:
             self.trust = waiting(self.trust, tick <= self._oldest_ticks and weight > 0.0)
@@ -119,6 +124,11 @@ class Link:
         if self.used:
             part = correction(
                 mine.along_m, mine.along_rate_m_s, other.along_m, other.along_rate_m_s, weight * self.trust, gains
+            )
+            now, age_s = own[-1], (tick - other.tick) * TICK_S
+            self.needs = (
+                neighbours_need(now.slowed_s, other.slowed_s, other.slowed_rate, age_s),
+                neighbours_need(now.hurried_s, other.hurried_s, other.hurried_rate, age_s),
             )
         self.trust = trusted(self.trust, self.used)
         return part

@@ -21,5 +21,11 @@ class LiveLink(Link):
 
     def _pair(self, tick: int, own: Sequence[Correction], sample: Correction) -> tuple[Correction, Correction]:
         moment = max(sample.tick, tick - self.channel.delay_ticks - self.channel.jitter_ticks)
-        along_m = sample.along_m + sample.along_rate_m_s * (moment - sample.tick) * TICK_S
-        return own[-1 - min(tick - moment, len(own) - 1)], sample._replace(tick=moment, along_m=along_m)
+        later_s = (moment - sample.tick) * TICK_S
+        carried_on = sample._replace(
+            tick=moment,
+            along_m=sample.along_m + sample.along_rate_m_s * later_s,
+            slowed_s=sample.slowed_s + sample.slowed_rate * later_s,
+            hurried_s=sample.hurried_s + sample.hurried_rate * later_s,
+        )
+        return own[-1 - min(tick - moment, len(own) - 1)], carried_on

@@ -20,6 +20,20 @@ class PathPoint(NamedTuple):
 START = PathPoint(0.0, 0, 0, 0)
 
 
+class ScheduleClock(NamedTuple):
+    """What the clock of a schedule shows.
+
+    Attributes:
+        time_s: since its beginning.
+        rate: of the clock, 1 unless the schedule slows down.
+        change: of the rate, 1/s.
+    """
+
+    time_s: float
+    rate: float
+    change: float
+
+
 class PathErrors(NamedTuple):
     """Deviations from the reference, SI and radians.
 
@@ -28,7 +42,7 @@ class PathErrors(NamedTuple):
         across, above: e_n (positive left of the path) and e_h.
         v_t, v_n, v_z: ground velocity along, left of and above the path's heading.
         heading, curvature, slope: of the path there; slope is dz/ds.
-        reference_acceleration: s_ref''.
+        reference_acceleration: s_ref'', by time as it passes.
     """
 
     along: float
@@ -47,11 +61,11 @@ class PathErrors(NamedTuple):
 def path_errors(
     position: tuple[float, float, float],
     ground_velocity: tuple[float, float, float],
-    time_s: float,
+    clock: ScheduleClock,
     point: PathPoint,
     tables: ReferenceTables,
 ) -> tuple[PathErrors, PathPoint]:
-    """Deviations at a time since launch, by one Newton step of the projection from the last tick's point."""
+    """Deviations at a time of the schedule, by one Newton step of the projection from the last tick's point."""
     x, y, heading, curvature, segment = path_at(point.s_m, point.segment, tables.segments)
     cos_heading = math.cos(heading)
     sin_heading = math.sin(heading)
@@ -67,10 +81,12 @@ def path_errors(
     v_t = ground_velocity[0] * cos_heading + ground_velocity[1] * sin_heading
     v_n = ground_velocity[1] * cos_heading - ground_velocity[0] * sin_heading
     z, slope, _, altitude_piece = quadratic_at(s, point.altitude_piece, tables.altitude)
-    s_ref, s_ref_rate, s_ref_acceleration, schedule_piece = quadratic_at(time_s, point.schedule_piece, tables.schedule)
+    s_ref, s_ref_rate, s_ref_acceleration, schedule_piece = quadratic_at(
+        clock.time_s, point.schedule_piece, tables.schedule
+    )
     errors = PathErrors(
         s - s_ref,
-        v_t / max(1.0 - curvature * across, 0.2) - s_ref_rate,
+        v_t / max(1.0 - curvature * across, 0.2) - s_ref_rate * clock.rate,
         across,
         position[2] - z,
         v_t,
@@ -79,6 +95,6 @@ def path_errors(
         heading,
         curvature,
         slope,
-        s_ref_acceleration,
+        s_ref_acceleration * clock.rate * clock.rate + s_ref_rate * clock.change,
     )
     return errors, PathPoint(s, segment, altitude_piece, schedule_piece)

@@ -25,6 +25,7 @@ from sitl.flight import (
 from sitl.formation.failures import within
 from sitl.formation.law import Gains, correction, formation_acceleration
 from sitl.formation.link import NEVER, trusted, waiting
+from sitl.formation.swarm_clock import Shift, Shifts, grown, neighbours_need, own_needs, schedule_clock
 from sitl.guidance.loiter_law import Approach, Loiter, loiter_accelerations, on_approach, to_go_m
 from sitl.guidance.path_errors import PathPoint, path_errors
 from sitl.guidance.path_law import PLANNED_ROOM_M_S, speed_acceleration, speed_before_height
@@ -39,8 +40,8 @@ IntArray = npt.NDArray[np.int64]
 ON_PATH, CIRCLING = 0, 1
 MORE_TICKS = 50
 """Flown after the last arrival, so that the crossing of the target's plane is on record."""
-STATE_FIELDS = 21
-"""Of a `Flight`, in a row."""
+STATE_FIELDS = 27
+"""Of a `Flight` and its `Shifts`, in a row."""
 
 
 class Routes(NamedTuple):
@@ -76,10 +77,12 @@ class Law(NamedTuple):
 
     Attributes:
         gains: (n, 4) rows of a `Gains`.
+        swarm_clock: the schedule is slowed and hurried with the neighbours'.
     """
 
     gains: FloatArray
     plain: bool
+    swarm_clock: bool
 
 
 def fly_swarm(
@@ -140,10 +143,12 @@ def fly_one(
     """Fly vehicle p through ticks [start, end).
 
     Args:
-        state: (n, STATE_FIELDS) flights as of `start`.
+        state: (n, STATE_FIELDS) flights and shifts as of `start`.
         stage: (n, 4): ON_PATH or CIRCLING, the approach to the circle, the airspeed on it.
     """
     flight = flight_in(state[p])
+    slowed = Shift(state[p, 21], state[p, 22], state[p, 23])
+    hurried = Shift(state[p, 24], state[p, 25], state[p, 26])
     tables = tables_of(p, routes)
     circle = routes.circle[p]
     loiter = Loiter(circle[0], circle[1], circle[2], circle[3], circle[4])
@@ -170,15 +175,19 @@ def fly_one(
         position = (air.x, air.y, air.h)
         velocity = ground_velocity(flight)
         if stage[p, 0] == ON_PATH:
-            errors, point = path_errors(position, velocity, tick * TICK_S, flight.point, tables)
+            clock = schedule_clock(tick * TICK_S, Shifts(slowed, hurried))
+            errors, point = path_errors(position, velocity, clock, flight.point, tables)
             flight = at_point(flight, point)
             in_formation = not within(tick, freezes)
             record.in_formation[p, tick] = in_formation
             record.along_m[p, tick] = errors.along
             record.along_rate_m_s[p, tick] = errors.along_rate
+            if law.swarm_clock:
+                shifts = record.shifts[p, tick]
+                shifts[0], shifts[1], shifts[2], shifts[3] = slowed.sum_s, slowed.rate, hurried.sum_s, hurried.rate
             epoch = epoch_at(tick, epoch, wiring.epoch)
             # This loop is not a function: the tables take longer to hand over than to use.
-            corrections = 0.0
+            corrections = slow = hurry = 0.0
             for link in range(wiring.first_link[p], wiring.first_link[p + 1]):
                 weight, trust, stamp = wiring.weight[epoch, link], hearing.trust[link], hearing.newest[link, tick]
                 oldest_ticks = wiring.delay_ticks[link] + wiring.jitter_ticks[link] + wiring.stale_ticks
@@ -197,12 +206,21 @@ def fly_one(
                         weight * trust,
                         gains,
                     )
+                    if law.swarm_clock:
+                        other, age_s = record.shifts[q, stamp], (tick - stamp) * TICK_S
+                        slow = max(slow, neighbours_need(slowed.sum_s, other[0], other[1], age_s))
+                        hurry = max(hurry, neighbours_need(hurried.sum_s, other[2], other[3], age_s))
                 hearing.trust[link] = trusted(trust, used)
                 record.used[link, tick] = used
             if law.plain or not in_formation:
                 ahead = speed_acceleration(airspeed_at(point.s_m, tables.airspeeds), air.V)
             else:
                 ahead = formation_acceleration(errors, corrections, gains)
+            if law.swarm_clock:
+                if in_formation:
+                    own_slow, own_hurry = own_needs(errors.along, air, flight.controls, aircraft.airframe)
+                    slow, hurry = max(own_slow, slow), max(own_hurry, hurry)
+                slowed, hurried = grown(slowed, slow), grown(hurried, hurry)
             wanted = path_accelerations(errors, ahead, air.V, aircraft.airframe)
             flight = moved(flight, wanted, aircraft)
             if point.s_m >= routes.end_s_m[p]:
@@ -220,6 +238,8 @@ def fly_one(
             flight = moved(flight, wanted, aircraft)
         record.thrust_n[p, tick] = flight.controls.thrust
     keep(flight, state[p])
+    state[p, 21], state[p, 22], state[p, 23] = slowed
+    state[p, 24], state[p, 25], state[p, 26] = hurried
 
 
 def tables_of(p: int, routes: Routes) -> ReferenceTables:
@@ -246,7 +266,7 @@ def flight_in(row: FloatArray) -> Flight:
 
 
 def keep(flight: Flight, row: FloatArray) -> None:
-    """Put a flight into a row of STATE_FIELDS numbers."""
+    """Put a flight into a row."""
     air, controls, gusts, wind, point = flight.air, flight.controls, flight.gusts, flight.wind, flight.point
     row[0], row[1], row[2], row[3], row[4], row[5] = air.x, air.y, air.h, air.V, air.gamma, air.chi
     row[6], row[7], row[8] = controls.thrust, controls.lift, controls.bank

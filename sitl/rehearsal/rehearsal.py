@@ -13,6 +13,7 @@ from sitl.config import VehicleConfig
 from sitl.flight import make_aircraft
 from sitl.formation.graph import EdgeChange
 from sitl.formation.network import Network
+from sitl.formation.swarm_clock import longest_s
 from sitl.noise import Stream, generator
 from sitl.rehearsal.kernel import Law, fly_swarm
 from sitl.rehearsal.record import Record, empty_record
@@ -36,6 +37,7 @@ class Flown:
         edges: changes of who makes use of whose corrections, in order.
         along_rate_m_s: by sysid: (ticks,) e', how much faster than the schedule; NaN off the path.
         thrust_n: by sysid: (ticks,) that the engine gave.
+        shifts: by sysid: (ticks, 2) seconds that its schedule had been slowed and hurried; empty without a swarm clock.
     """
 
     truth: dict[int, FloatArray]
@@ -43,6 +45,7 @@ class Flown:
     edges: list[EdgeChange]
     along_rate_m_s: dict[int, FloatArray]
     thrust_n: dict[int, FloatArray]
+    shifts: dict[int, FloatArray]
 
 
 def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission]) -> Flown:
@@ -58,8 +61,11 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
     first = vehicles[0]
     routes = routes_of(vehicles, missions)
     aircraft = make_aircraft(first.airframe, first.terrain.as_array(), first.gusts, first.steady_wind_m_s)
-    law = Law(gains_of(vehicles), first.arm == "plain")
-    n, ticks = len(vehicles), int((routes.duration_s.max() + OVERTIME_S) / TICK_S)
+    law = Law(gains_of(vehicles), first.arm == "plain", first.swarm_clock)
+    longest = routes.duration_s.max()
+    if first.swarm_clock:
+        longest = longest_s(longest)
+    n, ticks = len(vehicles), int((longest + OVERTIME_S) / TICK_S)
     normals = np.empty((n, ticks, NORMALS_PER_TICK))
     for p, vehicle in enumerate(vehicles):
         generator(vehicle.seed, vehicle.sysid, Stream.GUSTS).standard_normal(out=normals[p])
@@ -77,6 +83,7 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
         edge_changes(record, first.network),
         {sysid: record.along_rate_m_s[row] for sysid, row in rows.items()},
         {sysid: record.thrust_n[row] for sysid, row in rows.items()},
+        {sysid: record.shifts[row][:, ::2] for sysid, row in rows.items()} if first.swarm_clock else {},
     )
 
 

@@ -1,5 +1,6 @@
 """What a rehearsal puts on record; that its trajectories are an endpoint's, `test_demo.py` says."""
 
+import numpy as np
 import pytest
 
 from gcs.campaign.axes import with_values
@@ -8,6 +9,7 @@ from gcs.rehearsal import RehearsalOptions, rehearse_plan
 from gcs.report import report_on
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
+from planner.plan import plan
 from sitl.ticks import TICK_S
 
 
@@ -31,3 +33,23 @@ def test_the_effective_delay_is_on_record_and_so_is_who_heard_whom(short: Scenar
     assert {(sender, receiver) for _, sender, receiver, used in record.edges if used} == {
         (p, q) for p in (1, 2, 3) for q in (1, 2, 3) if p != q
     }
+
+
+def test_wind_that_nobody_foresaw_costs_time_with_a_swarm_clock_and_not_the_formation(
+    radars: Scenario,
+) -> None:
+    """Three metres a second from behind: the followers, planned at 20 m/s, can go no slower."""
+    radars_plan = plan(radars)
+    windy = with_values(radars, {"wind.steady_m_s": [3.0, 0.0]})
+    formations = []
+    for scenario in (windy, with_values(windy, {"formation.swarm_clock": True})):
+        truths, record = rehearse_plan(scenario, radars_plan, RehearsalOptions(1, 0.2))
+        report = report_on(scenario, radars_plan, truths, record)
+        formations.append((report.metrics["formation"], report.series.error.rms_m))
+    (apart, _), (together, error_m) = formations
+    assert apart["rms_error_m"] > 100.0
+    assert apart["slowed_s"] is apart["hurried_s"] is None
+    assert np.nanmax(error_m) < 10.0
+    assert together["rms_error_m"] < 4.0
+    assert together["arrival_spread_s"] < 1.0
+    assert together["hurried_s"] > 60.0

@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gcs.truth import read_truth, read_truths, trajectory_sha256
+from gcs.truth import read_shifts, read_truth, read_truths, trajectory_sha256, write_shifts
 from missions.errors import InputError
+from sitl.formation.swarm_clock import UNSHIFTED, Shift, Shifts
 from sitl.truth import TruthWriter
 
 ROW_BYTES = 48
@@ -16,9 +17,23 @@ def write(path: Path, rows: int, start: float = 0.0) -> np.ndarray:
     values = start + np.arange(rows * 6, dtype=np.float64).reshape(rows, 6) / 7.0
     writer = TruthWriter(path)
     for row in values.tolist():
-        writer.write(tuple(row))
+        writer.write(tuple(row), UNSHIFTED)
     writer.close()
     return values
+
+
+def test_what_the_swarms_clock_did_stands_beside_it(tmp_path: Path) -> None:
+    writer = TruthWriter(tmp_path / "4.f64", shifts=True)
+    for n in range(20):
+        writer.write((0.0,) * 6, Shifts(Shift(0.1 * n, 0.0, 0.0), Shift(0.3 * n, 0.0, 0.0)))
+    writer.close()
+    write(tmp_path / "5.f64", 20)
+    read = read_shifts(tmp_path, [4, 5])
+    assert list(read) == [4]
+    np.testing.assert_array_equal(read[4], np.arange(20)[:, None] * [0.1, 0.3])
+    (tmp_path / "copy").mkdir()
+    write_shifts(read, tmp_path / "copy")
+    np.testing.assert_array_equal(read_shifts(tmp_path / "copy", [4])[4], read[4])
 
 
 def test_reads_back_what_an_endpoint_writes(tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ KEYS = {
 MORE_KEYS = {
     "": {"arm", "limits", "graph", "links", "real_time", "behind_s"},
     "vehicles": {"lost_s"},
-    "formation": {"clearance_margin_m", "min_wall_m", "refused_samples", "measured_delay_s"},
+    "formation": {"clearance_margin_m", "min_wall_m", "refused_samples", "measured_delay_s", "slowed_s", "hurried_s"},
 }
 Truths = dict[int, np.ndarray]
 UPWARDS_M = np.array([0.0, 0.0, 6.0, 0.0, 0.0, 0.0])

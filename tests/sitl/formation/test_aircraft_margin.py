@@ -14,7 +14,7 @@ from sitl.formation.graph import edges, laplacian, neighbour_weights
 from sitl.formation.law import Gains, correction, formation_acceleration
 from sitl.formation.linear_formation import LinearFormation
 from sitl.formation.margin import aircraft_margin_s
-from sitl.guidance.path_errors import PathErrors, path_errors
+from sitl.guidance.path_errors import PathErrors, ScheduleClock, path_errors
 from sitl.ticks import TICK_S
 
 SPEED_M_S, HEIGHT_M = 28.0, 500.0
@@ -57,7 +57,8 @@ def growth_rate(kind: str, count: int, delay_ticks: int, wind: tuple[float, floa
         now = {}
         for p, flight in flights.items():
             position = (flight.air.x, flight.air.y, flight.air.h)
-            now[p], point = path_errors(position, ground_velocity(flight), tick * TICK_S, flight.point, STRAIGHT)
+            clock = ScheduleClock(tick * TICK_S, 1.0, 0.0)
+            now[p], point = path_errors(position, ground_velocity(flight), clock, flight.point, STRAIGHT)
             flights[p] = at_point(flight, point)
         past.append(now)
         swing.append(sum(shape[p - 1] * now[p].along_rate for p in sysids))

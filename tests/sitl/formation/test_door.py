@@ -23,9 +23,9 @@ def changed(offset: int, form: str, value: object) -> bytes:
 
 
 REFUSED = {
-    "length no multiple of 40 bytes": encode(sample(LAST + 1))[:-1],
+    "length no multiple of 72 bytes": encode(sample(LAST + 1))[:-1],
     "not a correction": changed(0, "2s", b"XX"),
-    "not of version 1": changed(2, "B", 2),
+    "not of version 2": changed(2, "B", 1),
     "not finite": changed(24, "<d", float("nan")),
     "another's system id": encode(sample(LAST + 1, sysid=9)),
     "time goes backwards": encode(sample(LAST - 1)),

@@ -105,8 +105,8 @@ def test_what_is_no_sample_of_the_neighbour_is_counted_by_reason_and_told_once(p
     until(exchanges[1], lambda: len(exchanges[1].reports(1)[0].refused) == len(nonsense) + 1)
     (report,) = exchanges[1].reports(1)
     assert report.refused == {
-        "length no multiple of 40 bytes": 2,
-        "not of version 1": 2,
+        "length no multiple of 72 bytes": 2,
+        "not of version 2": 2,
         "not finite": 2,
         "another's system id": 2,
         "far in the future": 2,

@@ -23,7 +23,7 @@ from sitl.formation.network import Network
 from sitl.modes import Mode
 from sitl.rehearsal import rehearse
 from sitl.swarm import SwarmOptions, vehicle_configs
-from sitl.truth import TruthWriter
+from sitl.truth import TruthWriter, shifts_file
 from sitl.vehicle import Vehicle
 
 COUNT = 4
@@ -63,7 +63,8 @@ def fly_together(
     network = configs[0].network
     vehicles, writers = {}, {}
     for config in configs:
-        writers[config.sysid] = TruthWriter(folder / f"{config.sysid}.f64")
+        file = folder / f"{config.sysid}.f64"
+        writers[config.sysid] = TruthWriter(file, shifts=config.swarm_clock)
         vehicle = vehicles[config.sysid] = Vehicle(config, writers[config.sysid])
         vehicle.load(PlanType.MISSION, missions[config.sysid].items)
         assert vehicle.arm() is None
@@ -89,6 +90,10 @@ def assert_same(configs: list[VehicleConfig], missions: dict[int, Mission], fold
     flown, changes = fly_together(configs, missions, ticks, folder)
     for sysid in flown:
         assert rehearsed.truth[sysid].tobytes() == flown[sysid].tobytes(), sysid
+    for sysid, rows in rehearsed.shifts.items():
+        on_path = slice((rehearsed.arrived[sysid] or 0) + 1)
+        shifts = np.fromfile(shifts_file(folder / f"{sysid}.f64")).reshape(-1, 2)
+        assert rows[on_path].tobytes() == shifts[on_path].tobytes(), sysid
     assert rehearsed.edges == changes
 
 
@@ -132,6 +137,21 @@ def test_whatever_the_network_does_and_whoever_fails_it_is_the_endpoints_flight_
     network: Network, vee: Scenario, missions: dict[int, Mission], tmp_path: Path
 ) -> None:
     assert_same(swarm(vee, network), missions, tmp_path)
+
+
+@settings(
+    max_examples=6,
+    deadline=None,
+    derandomize=True,
+    phases=(Phase.explicit, Phase.generate),
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+@given(network=networks, wind_m_s=st.sampled_from([-8.0, -4.0, 6.0, 9.0]))
+def test_so_it_is_by_the_swarms_clock_in_wind_that_nobody_can_hold_out_against(
+    network: Network, wind_m_s: float, vee: Scenario, missions: dict[int, Mission], tmp_path: Path
+) -> None:
+    windy = [replace(config, swarm_clock=True, steady_wind_m_s=(wind_m_s, 0.0)) for config in swarm(vee, network)]
+    assert_same(windy, missions, tmp_path)
 
 
 @pytest.mark.parametrize("arm", ["plain", "own_schedule"])

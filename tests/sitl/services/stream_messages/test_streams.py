@@ -28,3 +28,8 @@ def test_formation_is_two_values_that_any_station_can_plot(view: Any) -> None:
         ("FormErr", -4.5, 12520),
         ("FormDelay", 0.2, 12520),
     ]
+
+
+def test_a_vehicle_that_goes_by_a_swarms_clock_tells_what_that_shows(view: Any) -> None:
+    names = [message.name for message in STREAMS[251].messages(view(schedule_shift_s=-2.5))]
+    assert names == ["FormErr", "FormDelay", "FormShift"]
