@@ -53,8 +53,8 @@ class Worth:
 
     @property
     def beats_own(self) -> bool:
-        """Whether neighbours are worth what they should be. It takes ways side by side: where they cross, equal
-        deviations along them are errors between them."""
+        """Whether neighbours are worth what they should be. It takes paths that lead nearly the same way: equal deviations
+        along others are errors between them."""
         return self.median_of_own <= MOST_OF_OWN
 
     def as_json(self) -> dict[str, Any]:
