@@ -53,7 +53,7 @@ class Worth:
 
     @property
     def beats_own(self) -> bool:
-        """Whether neighbours are worth what they should be. It takes paths that lead nearly the same way: equal deviations
+        """Whether neighbours are worth what they should be. It takes paths that lead nearly one way: equal deviations
         along others are errors between them."""
         return self.median_of_own <= MOST_OF_OWN
 
