@@ -141,7 +141,7 @@ def airspeed_at(s_m: float, airspeeds: list[tuple[float, float]]) -> float:
 def moved(flight: Flight, wanted: Accelerations, aircraft: Aircraft) -> Flight:
     """One tick of flight: limits, feedback linearisation, actuators, one Runge-Kutta step; never below the ground."""
     airframe = aircraft.airframe
-    _, _, v_z = ground_velocity(flight)
+    v_z = flight.air.V * math.sin(flight.air.gamma) + flight.wind[2]
     a = limited(wanted, flight.air.V, v_z, airframe)
     cos_heading = math.cos(a.heading)
     sin_heading = math.sin(a.heading)

@@ -95,7 +95,9 @@ class Pilot:
         self._powerless = self._aircraft._replace(airframe=config.airframe._replace(static_thrust_n=0.0))
         self._normals = normals(config.seed, config.sysid, Stream.GUSTS, NORMALS_PER_TICK)
         self._gains = config.gains if config.arm == "full" else config.gains._replace(k1=0.0, k2=0.0)
-        self.formation = Formation(config.sysid, config.network, config.seed, real_time=config.real_time)
+        self.formation = Formation(
+            config.sysid, config.network, config.seed, real_time=config.real_time, clocked=config.swarm_clock
+        )
         self._frozen = config.network.frozen(config.sysid)
         self._own: deque[Correction] = deque(maxlen=self.formation.remembers_ticks)
         self._corrections = 0.0
@@ -172,9 +174,12 @@ class Pilot:
             if self.commanded is None and not stage.on_final and not within(self.tick, self._frozen):
                 self.in_formation = True
                 along, along_rate = errors.along, errors.along_rate
-        sysid, tick, (slowed, hurried) = self._config.sysid, self.tick, self.shifts
-        shifts = (slowed.sum_s, slowed.rate, hurried.sum_s, hurried.rate)
-        own = Correction(sysid, tick, tick, self.in_formation, along, along_rate, *shifts)
+        own = Correction(self._config.sysid, self.tick, self.tick, self.in_formation, along, along_rate)
+        if self._config.swarm_clock:
+            slowed, hurried = self.shifts
+            own = own._replace(
+                slowed_s=slowed.sum_s, slowed_rate=slowed.rate, hurried_s=hurried.sum_s, hurried_rate=hurried.rate
+            )
         self._own.append(own)
         return own
 

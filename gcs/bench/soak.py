@@ -1,6 +1,7 @@
 """`make soak`: hostile traffic, lossy links, killed ends, and flights in which things fail, at full size; writes the
 figures, and fails when an end has grown, an upload has not come through, a kill has left something else than a whole
-plan, vehicles have collided or not arrived, or corrections are worth less than they should be."""
+plan, vehicles have collided or not arrived, corrections are worth less than they should be, or a rehearsal is not the
+flight bit for bit."""
 
 import json
 import sys
@@ -9,6 +10,7 @@ from dataclasses import asdict
 from multiprocessing import get_context
 from pathlib import Path
 
+from gcs.bench.equality import measure_equality
 from gcs.bench.flown_often import measure_arms, measure_faults
 from gcs.bench.fuzz import fuzz_endpoint, fuzz_station
 from gcs.bench.killed_transfers import measure_kills
@@ -33,7 +35,7 @@ def soak(out: Path) -> int:
         fuzzed = {name: asdict(future.result()) for name, future in running.items()}
     relayed = asdict(measure_relayed(RELAYED_LOSS, UPLOADS))  # by itself: it takes wall time
     kills = {who: asdict(kills) for who, kills in measure_kills(ITEMS_OF_KILLED).items()}
-    faults, arms = measure_faults(), measure_arms()
+    faults, arms, equality = measure_faults(), measure_arms(), measure_equality()
     figures = {
         **fuzzed,
         "transfers": transfers,
@@ -41,6 +43,7 @@ def soak(out: Path) -> int:
         "kills": kills,
         "faults": [asdict(campaign) for campaign in faults],
         "arms": [worth.as_json() for worth in arms],
+        "equality": [asdict(one) for one in equality],
     }
     out.mkdir(parents=True, exist_ok=True)
     text = json.dumps(figures, indent=1)
@@ -50,6 +53,7 @@ def soak(out: Path) -> int:
     failed = any(measured["failed"] for measured in [*transfers, relayed])
     failed |= not all(campaign.passed for campaign in faults)
     failed |= not all(worth.beats_plain and worth.beats_own for worth in arms)
+    failed |= not all(one.same for one in equality)
     return int(grown or failed or any(killed["neither"] for killed in kills.values()))
 
 

@@ -26,18 +26,23 @@ class Controls(NamedTuple):
 
 
 def point_mass_rates(
-    V: float, gamma: float, chi: float, controls: Controls, drag: float, mass: float
+    V: float, gamma: float, chi: float, surplus: float, lift_up: float, lift_left: float, mass: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Time derivatives of (x, y, h, V, gamma, chi) in still air, equations (19)-(24), with the dot of (22) restored."""
+    """Time derivatives of (x, y, h, V, gamma, chi) in still air, equations (19)-(24), with the dot of (22) restored.
+
+    Args:
+        surplus: T - D, newtons.
+        lift_up, lift_left: L cos(phi) and L sin(phi), newtons.
+    """
     cos_gamma = math.cos(gamma)
     sin_gamma = math.sin(gamma)
     return (
         V * cos_gamma * math.cos(chi),
         V * cos_gamma * math.sin(chi),
         V * sin_gamma,
-        (controls.thrust - drag) / mass - GRAVITY_M_S2 * sin_gamma,
-        (controls.lift * math.cos(controls.bank) - mass * GRAVITY_M_S2 * cos_gamma) / (mass * V),
-        controls.lift * math.sin(controls.bank) / (mass * V * cos_gamma),
+        surplus / mass - GRAVITY_M_S2 * sin_gamma,
+        (lift_up - mass * GRAVITY_M_S2 * cos_gamma) / (mass * V),
+        lift_left / (mass * V * cos_gamma),
     )
 
 
@@ -51,20 +56,18 @@ def rk4_step(
         dt: step in seconds.
     """
     x, y, h, V, gamma, chi = state
+    thrust, lift, bank = controls
     m = airframe.mass_kg
-    lift = controls.lift
+    up = lift * math.cos(bank)
+    left = lift * math.sin(bank)
     half = 0.5 * dt
-    ax, ay, ah, aV, ag, ac = point_mass_rates(V, gamma, chi, controls, drag_n(V, lift, airframe), m)
-    v = V + half * aV
-    bx, by, bh, bV, bg, bc = point_mass_rates(
-        v, gamma + half * ag, chi + half * ac, controls, drag_n(v, lift, airframe), m
-    )
-    v = V + half * bV
-    cx, cy, ch, cV, cg, cc = point_mass_rates(
-        v, gamma + half * bg, chi + half * bc, controls, drag_n(v, lift, airframe), m
-    )
-    v = V + dt * cV
-    dx, dy, dh, dV, dg, dc = point_mass_rates(v, gamma + dt * cg, chi + dt * cc, controls, drag_n(v, lift, airframe), m)
+    ax, ay, ah, aV, ag, ac = point_mass_rates(V, gamma, chi, thrust - drag_n(V, lift, airframe), up, left, m)
+    v, g, c = V + half * aV, gamma + half * ag, chi + half * ac
+    bx, by, bh, bV, bg, bc = point_mass_rates(v, g, c, thrust - drag_n(v, lift, airframe), up, left, m)
+    v, g, c = V + half * bV, gamma + half * bg, chi + half * bc
+    cx, cy, ch, cV, cg, cc = point_mass_rates(v, g, c, thrust - drag_n(v, lift, airframe), up, left, m)
+    v, g, c = V + dt * cV, gamma + dt * cg, chi + dt * cc
+    dx, dy, dh, dV, dg, dc = point_mass_rates(v, g, c, thrust - drag_n(v, lift, airframe), up, left, m)
     sixth = dt / 6.0
     return AirState(
         x + sixth * (ax + 2.0 * (bx + cx) + dx) + dt * wind[0],

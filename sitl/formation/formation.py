@@ -18,6 +18,7 @@ class Formation:
         sysid: of the vehicle.
         network: of the swarm.
         seed: of what the channels do.
+        clocked: the swarm has a clock.
         real_time: what is heard has been through its channel already, and may be late.
 
     Attributes:
@@ -25,13 +26,16 @@ class Formation:
         needs: the rates at which the neighbours would have the schedule slow down, and hurry; of the last corrections.
     """
 
-    def __init__(self, sysid: int, network: Network, seed: int, *, real_time: bool = False) -> None:
+    def __init__(
+        self, sysid: int, network: Network, seed: int, *, real_time: bool = False, clocked: bool = False
+    ) -> None:
         self.edges: list[tuple[int, int, bool]] = []
         self.needs = NO_NEEDS
         self._sysid = sysid
         self._network = network
         self._seed = seed
         self._real_time = real_time
+        self._clocked = clocked
         self._lost: Set[int] = frozenset()
         self._gone: frozenset[int] = frozenset()
         self._until_tick = 0
@@ -72,7 +76,7 @@ class Formation:
         for other, link in self._links.items():
             link.hear(tick, heard.get(other))
             total += link.part(tick, own, self._weights.get(other, 0.0), gains)
-            if link.needs is not NO_NEEDS:
+            if self._clocked:
                 self.needs = (max(self.needs[0], link.needs[0]), max(self.needs[1], link.needs[1]))
             if link.used != self._used[other]:
                 self._used[other] = link.used
@@ -97,8 +101,10 @@ class Formation:
         network, receiver = self._network, self._sysid
         channel = network.channel_of(sender, receiver)
         if self._real_time:
-            return LiveLink(channel, None, (), network.stale_ticks, trust)
+            return LiveLink(channel, None, (), network.stale_ticks, trust, clocked=self._clocked)
         draws: Iterator[tuple[float, ...]] | None = None
         if not channel.certain:
             draws = uniforms(self._seed, sender, receiver, DRAWS)
-        return Link(channel, draws, network.silences(sender, receiver), network.stale_ticks, trust)
+        return Link(
+            channel, draws, network.silences(sender, receiver), network.stale_ticks, trust, clocked=self._clocked
+        )

@@ -53,6 +53,7 @@ class Link:
         silences: by the sender's ticks.
         stale_ticks: see `Network`.
         trust: at the beginning: 1 for an edge that is there from the start.
+        clocked: the swarm has a clock.
 
     Attributes:
         trust: share of its weight that the edge has.
@@ -67,11 +68,14 @@ class Link:
         silences: Sequence[Interval],
         stale_ticks: int,
         trust: float,
+        *,
+        clocked: bool = False,
     ) -> None:
         self.channel = channel
         self.trust = trust
         self.used = False
         self.needs = NO_NEEDS
+        self._clocked = clocked
         self._draws = draws
         self._silences = list(silences)
         self._oldest_ticks = channel.delay_ticks + channel.jitter_ticks + stale_ticks
@@ -111,7 +115,6 @@ class Link:
             weight: a_pq; 0 while there is no such edge.
         """
         self.used = False
-        self.needs = NO_NEEDS
         sample = self._sample
         if sample is None:
             self.trust = waiting(self.trust, tick <= self._oldest_ticks and weight > 0.0)
@@ -125,13 +128,17 @@ class Link:
             part = correction(
                 mine.along_m, mine.along_rate_m_s, other.along_m, other.along_rate_m_s, weight * self.trust, gains
             )
-            now, age_s = own[-1], (tick - other.tick) * TICK_S
-            self.needs = (
-                neighbours_need(now.slowed_s, other.slowed_s, other.slowed_rate, age_s),
-                neighbours_need(now.hurried_s, other.hurried_s, other.hurried_rate, age_s),
-            )
+        if self._clocked:
+            self.needs = self._needs(tick, own[-1], other) if self.used else NO_NEEDS
         self.trust = trusted(self.trust, self.used)
         return part
+
+    def _needs(self, tick: int, own: Correction, other: Correction) -> tuple[float, float]:
+        age_s = (tick - other.tick) * TICK_S
+        return (
+            neighbours_need(own.slowed_s, other.slowed_s, other.slowed_rate, age_s),
+            neighbours_need(own.hurried_s, other.hurried_s, other.hurried_rate, age_s),
+        )
 
     def _pair(self, tick: int, own: Sequence[Correction], sample: Correction) -> tuple[Correction, Correction]:
         """The own and the neighbour's deviation, of one moment."""

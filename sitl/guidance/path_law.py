@@ -43,7 +43,7 @@ class Accelerations(NamedTuple):
 
 def clamp(value: float, low: float, high: float) -> float:
     """The value, kept between two bounds."""
-    return min(max(value, low), high)
+    return low if value < low else high if value > high else value
 
 
 def across_acceleration(errors: PathErrors) -> float:

@@ -31,9 +31,9 @@ def test_energy_changes_by_the_work_of_thrust_and_drag(
     state: AirState, thrust: float, lift: float, bank: float
 ) -> None:
     drag = drag_n(state.V, lift, AIRFRAME)
-    controls = Controls(thrust, lift, bank)
+    up, left = lift * math.cos(bank), lift * math.sin(bank)
     _, _, climb, acceleration, _, _ = point_mass_rates(
-        state.V, state.gamma, state.chi, controls, drag, AIRFRAME.mass_kg
+        state.V, state.gamma, state.chi, thrust - drag, up, left, AIRFRAME.mass_kg
     )
     power = AIRFRAME.mass_kg * (state.V * acceleration + GRAVITY_M_S2 * climb)
     assert power == pytest.approx((thrust - drag) * state.V, abs=1e-6)
@@ -46,7 +46,8 @@ def test_a_second_of_steps_is_within_a_millimetre_of_an_adaptive_solver(
     controls = Controls(thrust, lift, bank)
 
     def rates(_: float, y: np.ndarray) -> tuple[float, ...]:
-        return point_mass_rates(y[3], y[4], y[5], controls, drag_n(y[3], lift, AIRFRAME), AIRFRAME.mass_kg)
+        surplus, up, left = thrust - drag_n(y[3], lift, AIRFRAME), lift * math.cos(bank), lift * math.sin(bank)
+        return point_mass_rates(y[3], y[4], y[5], surplus, up, left, AIRFRAME.mass_kg)
 
     exact = solve_ivp(rates, (0, 1), state, rtol=1e-10, atol=1e-10).y[:, -1]
     for _ in range(25):
@@ -56,8 +57,7 @@ def test_a_second_of_steps_is_within_a_millimetre_of_an_adaptive_solver(
 
 def test_a_steady_turn_has_the_rate_of_its_bank() -> None:
     bank = math.radians(30)
-    controls = Controls(0.0, WEIGHT / math.cos(bank), bank)
-    *_, climb_rate, turn_rate = point_mass_rates(25.0, 0.0, 1.0, controls, 0.0, AIRFRAME.mass_kg)
+    *_, climb_rate, turn_rate = point_mass_rates(25.0, 0.0, 1.0, 0.0, WEIGHT, WEIGHT * math.tan(bank), AIRFRAME.mass_kg)
     assert climb_rate == pytest.approx(0, abs=1e-12)
     assert turn_rate == pytest.approx(GRAVITY_M_S2 * math.tan(bank) / 25.0)
 
