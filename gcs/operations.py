@@ -11,9 +11,9 @@ from gcs.transfers.plans import download, upload_and_verify
 from gcs.vehicle_link import VehicleLink
 from missions.errors import InputError
 from missions.fence import NO_FENCE, fence_items, parse_fence
-from missions.formats.qgc_plan import Plan
 from missions.mission import Mission
 from missions.plan_type import PlanType
+from missions.vehicle_plan import Plan
 from sitl.modes import Mode
 from sitl.services.peer import Message
 

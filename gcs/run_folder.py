@@ -17,9 +17,10 @@ from typing import Any
 
 from missions.elevation import write_local_raster
 from missions.errors import InputError
-from missions.formats.qgc_plan import Plan, write_plan
+from missions.formats.qgc_plan import write_plan
 from missions.formats.waypoints import write_waypoints
 from missions.scenario import Scenario, parse_scenario
+from missions.vehicle_plan import Plan
 from planner.formation_plan import FormationPlan, load_plan
 
 RUNS = Path("runs")

@@ -26,7 +26,7 @@ class Command(IntEnum):
 
 
 class Frame(IntEnum):
-    """MAV_FRAME numbers. On the wire the *_INT forms (5, 6) mean the same as 0 and 3."""
+    """MAV_FRAME numbers. On the wire the *_INT forms (5, 6, 11) mean the same as 0, 3 and 10."""
 
     GLOBAL = 0
     """Altitude AMSL."""
@@ -36,6 +36,9 @@ class Frame(IntEnum):
     """Altitude above home."""
     GLOBAL_INT = 5
     GLOBAL_RELATIVE_ALT_INT = 6
+    GLOBAL_TERRAIN_ALT = 10
+    """Altitude above the ground below."""
+    GLOBAL_TERRAIN_ALT_INT = 11
 
 
 NAVIGATION = frozenset({Command.NAV_WAYPOINT, Command.NAV_LOITER_UNLIM})

@@ -22,6 +22,7 @@ _FLOATS = struct.Struct("<5f")
 _PLAIN_FRAMES = {
     int(Frame.GLOBAL_INT): int(Frame.GLOBAL),
     int(Frame.GLOBAL_RELATIVE_ALT_INT): int(Frame.GLOBAL_RELATIVE_ALT),
+    int(Frame.GLOBAL_TERRAIN_ALT_INT): int(Frame.GLOBAL_TERRAIN_ALT),
 }
 
 
@@ -34,7 +35,7 @@ class MissionItem:
 
     Attributes:
         command: MAV_CMD number.
-        frame: MAV_FRAME number; the *_INT frames are stored as their plain forms (5 as 0, 6 as 3).
+        frame: MAV_FRAME number; the *_INT frames are stored as their plain forms (5 as 0, 6 as 3, 11 as 10).
         param1, param2, param3, param4: the command's parameters; NaN means "default".
         lat_e7, lon_e7: position in 1e-7 degrees.
         alt_m: altitude in metres, above what `frame` says.

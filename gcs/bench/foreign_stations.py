@@ -21,7 +21,8 @@ from gcs.links.udp import UdpLink
 from gcs.transfers.errors import TransferError
 from gcs.transfers.plans import upload_and_verify
 from missions.commands import Command, Frame
-from missions.formats.waypoints import read_waypoints, write_waypoints
+from missions.formats.waypoints import write_waypoints
+from missions.formats.waypoints_reader import read_waypoints
 from missions.mission import Mission, MissionItem
 from missions.plan_type import PlanType
 from missions.scenario import Scenario, VehicleModel

@@ -21,7 +21,7 @@ from gcs.cli.station import (
 
 if TYPE_CHECKING:
     from gcs.vehicle_link import VehicleLink
-    from missions.formats.qgc_plan import Plan
+    from missions.vehicle_plan import Plan
 
 SourceArgument = Annotated[
     Path,
@@ -67,7 +67,7 @@ def _plans_of_run(folder: Path, sysids: Sequence[int] | None) -> "dict[int, Plan
     """The missions of a run by system id, of these vehicles only if they are given."""
     from gcs.run_folder import RunFolder
     from missions.errors import InputError
-    from missions.formats.qgc_plan import Plan
+    from missions.vehicle_plan import Plan
 
     _, formation = RunFolder(folder).read()
     plans = {uav.sysid: Plan(uav.mission) for uav in formation.uavs}
@@ -78,8 +78,9 @@ def _plans_of_run(folder: Path, sysids: Sequence[int] | None) -> "dict[int, Plan
 
 def _plan_of_file(path: Path) -> "Plan":
     from missions.errors import InputError
-    from missions.formats.qgc_plan import Plan, read_plan
-    from missions.formats.waypoints import read_waypoints
+    from missions.formats.qgc_plan_reader import read_plan
+    from missions.formats.waypoints_reader import read_waypoints
+    from missions.vehicle_plan import Plan
 
     if path.suffix == ".plan":
         return read_plan(path)

@@ -10,8 +10,10 @@ from pymavlink import mavutil
 from typer.testing import Result
 
 from gcs.run_folder import RunFolder
-from missions.formats.qgc_plan import Plan, read_plan, write_plan
+from missions.formats.qgc_plan import write_plan
+from missions.formats.qgc_plan_reader import read_plan
 from missions.plan_type import PlanType
+from missions.vehicle_plan import Plan
 from sitl.services.opaque_id import opaque_id
 
 PATIENCE_S = 20.0

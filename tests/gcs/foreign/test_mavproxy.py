@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 
 from missions.fence import Fence, FenceCircle, FencePolygon, fence_items, rally_items
-from missions.formats.waypoints import read_waypoints, write_waypoints
+from missions.formats.waypoints import write_waypoints
+from missions.formats.waypoints_reader import read_waypoints
 from missions.mission import Mission, MissionItem
 from missions.plan_type import PlanType
 from sitl.modes import Mode

@@ -10,7 +10,8 @@ import pytest
 
 from gcs.bench.mavsdk_station import from_raw_items, plugin, to_raw_items
 from gcs.bench.peers import LOOPBACK, free_udp_port
-from missions.formats.waypoints import read_waypoints, write_waypoints
+from missions.formats.waypoints import write_waypoints
+from missions.formats.waypoints_reader import read_waypoints
 from missions.mission import Mission
 from sitl.modes import Mode
 

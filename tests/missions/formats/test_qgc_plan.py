@@ -12,8 +12,10 @@ from hypothesis import strategies as st
 
 from missions.errors import InputError
 from missions.fence import Fence, FenceCircle, FencePolygon, rally_items
-from missions.formats.qgc_plan import Plan, read_plan, write_plan
+from missions.formats.qgc_plan import write_plan
+from missions.formats.qgc_plan_reader import read_plan
 from missions.mission import Mission, MissionItem
+from missions.vehicle_plan import Plan
 
 PARAM = st.floats(width=32, allow_infinity=False)
 FINITE = st.floats(width=32, allow_infinity=False, allow_nan=False)

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from missions.errors import InputError
-from missions.formats.waypoints import read_waypoints, write_waypoints
+from missions.formats.waypoints import write_waypoints
+from missions.formats.waypoints_reader import read_waypoints
 from missions.mission import Mission, MissionItem, as_float32
 
 FLOAT32 = st.floats(width=32, allow_infinity=False)
