@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from missions.commands import Command, Frame
 from missions.errors import InputError
@@ -18,6 +19,10 @@ from sitl.modes import Mode
 from sitl.parameters import INT16, REAL, Parameter, Parameters
 from sitl.snapshot import LandedState, Snapshot
 from sitl.store import Store
+
+# Machines are shared: no test fails for the time that it took.
+settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("unhurried")
 
 PORTS = range(10_240, 32_768)
 """Systems give out ports above these only."""
