@@ -129,6 +129,25 @@ class Fleet:
             raise InputError(self._missing([sysid], timeout_s)) from None
         return self.vehicles[sysid]
 
+    async def hear_one(self, timeout_s: float) -> VehicleLink:
+        """Wait until a vehicle has been heard, and whether it is the only one.
+
+        Raises:
+            InputError: there is none after `timeout_s`, or there are several.
+        """
+        try:
+            async with asyncio.timeout(timeout_s):
+                while not self.vehicles:
+                    self._news.clear()
+                    await self._news.wait()
+        except TimeoutError:
+            raise InputError("; ".join([f"no vehicle heard within {timeout_s:g} s", *self.complaints()])) from None
+        await self.hear_out()
+        if len(self.vehicles) > 1:
+            raise InputError(f"vehicles {sorted(self.vehicles)} are heard there; one alone is wanted")
+        self.check()
+        return next(iter(self.vehicles.values()))
+
     async def hear_out(self) -> None:
         """Wait until all who may have come to a listening socket have had the time of a heartbeat; then ask `doubled`.
 

@@ -1,12 +1,12 @@
 """Rehearsal and flight, bit for bit: shipped scenarios on a bad network, at several speeds, beside other work."""
 
 import asyncio
+import multiprocessing
 import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -60,19 +60,19 @@ def measure_equality() -> list[Equality]:
 
 @contextmanager
 def busy(processes: int) -> Iterator[None]:
-    """So many processes that do nothing but count."""
+    """So many processes that do nothing of use."""
     with ExitStack() as stack:
         for _ in range(processes):
-            process = get_context("spawn").Process(target=_count, daemon=True)
+            process = multiprocessing.get_context("spawn").Process(target=_waste_time, daemon=True)
             process.start()
             stack.callback(process.kill)
         yield
 
 
-def _count() -> None:
-    n = 0
-    while True:
-        n += 1
+def _waste_time() -> None:
+    parent = multiprocessing.parent_process()
+    while parent is not None and parent.is_alive():
+        pass
 
 
 def _measured(name: str) -> Equality:

@@ -4,6 +4,7 @@ import typer
 
 from gcs.cli.bench import bench
 from gcs.cli.clear import clear
+from gcs.cli.companion import companion
 from gcs.cli.demo import demo
 from gcs.cli.download import download
 from gcs.cli.export import export
@@ -31,7 +32,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, export, replay, bench, margin, reproduce)
-WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status)
+WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status, companion)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)
 app.add_typer(params)

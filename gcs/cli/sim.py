@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
-from gcs.cli.options import RealTimeOption, ScenarioArgument, SeedOption, SpeedOption, clock_speed
+from gcs.cli.options import (
+    NoCorrectionsOption,
+    NoNeighboursOption,
+    RealTimeOption,
+    ScenarioArgument,
+    SeedOption,
+    SpeedOption,
+    chosen_arm,
+    clock_speed,
+)
 
 if TYPE_CHECKING:
     from sitl.swarm import Swarm
@@ -96,6 +105,8 @@ def sim(
     speed: SpeedOption = 1.0,
     real_time: RealTimeOption = False,
     held: HeldOption = False,
+    no_corrections: NoCorrectionsOption = False,
+    no_neighbours: NoNeighboursOption = False,
     seed: SeedOption = None,
     sysid_base: SysidBaseOption = None,
     udp: UdpOption = None,
@@ -136,6 +147,7 @@ def sim(
             options = SwarmOptions(
                 seed=loaded.seed if seed is None else seed,
                 delay_s=loaded.formation.delay_s,
+                arm=chosen_arm(no_corrections, no_neighbours),
                 held=held,
                 speed=clock_speed(speed, real_time),
                 real_time=real_time,

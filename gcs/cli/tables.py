@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.markup import escape
 from rich.table import Table
@@ -12,6 +12,9 @@ from planner.formation_plan import FormationPlan
 from planner.standing import Standing, standings
 from sitl.services.links import LOOPBACK
 from sitl.swarm import Swarm
+
+if TYPE_CHECKING:
+    from gcs.companion.connected_flight import Arrival
 
 
 def plan_table(plan: FormationPlan, scenario: Scenario) -> Table:
@@ -109,6 +112,27 @@ def _end(vehicle: dict[str, Any]) -> str:
     if vehicle["completed"]:
         return "yes"
     return "[red]no[/red]" if vehicle["lost_s"] is None else f"[red]lost {vehicle['lost_s']:.0f}[/red]"
+
+
+def arrival_table(arrivals: "Sequence[Arrival]", spread_s: float | None) -> Table:
+    """How vehicles that were there arrived."""
+    title = "Arrivals" if spread_s is None else f"Arrivals, spread over {spread_s:.2f} s against the plan"
+    table = Table(title=title, title_justify="left")
+    table.add_column("vehicle")
+    for heading in ("armed s", "planned s", "arrived s", "late by s", "e RMS m", "e max m"):
+        table.add_column(heading, justify="right")
+    for one in arrivals:
+        late = None if one.arrived_s is None else one.arrived_s - one.planned_s
+        table.add_row(
+            f"{one.sysid} {one.name}",
+            f"+{one.started_s:.2f}",
+            f"{one.planned_s:.1f}",
+            "[red]no[/red]" if one.arrived_s is None else f"{one.arrived_s:.1f}",
+            _shown(late),
+            _shown(one.along_rms_m, ".1f"),
+            _shown(one.along_max_m, ".1f"),
+        )
+    return table
 
 
 def formation_table(metrics: dict[str, Any]) -> Table:
