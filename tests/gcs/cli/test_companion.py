@@ -22,9 +22,6 @@ def test_one_station_flies_all_and_all_arrive_together(start_sim: Callable[..., 
             capture_output=True,
             text=True,
             timeout=120,
-            capture_output=True,
-            text=True,
-            timeout=120,
         )
     assert result.returncode == 0, result.stderr
     report = json.loads(result.stdout)
