@@ -27,6 +27,8 @@ START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
 MOST_PROCESSES = 24
 """Larger swarms share processes, as many as there are cores, unless told otherwise."""
+MOST_IN_A_NEST = 100
+"""Vehicles, unless they are of one process: the sockets of all are open in it until it has forked them."""
 
 
 @dataclass(frozen=True)
@@ -151,13 +153,17 @@ class Swarm:
         self._start([replace(old.config, endpoints=endpoints)])
 
     def _start(self, configs: list[ProcessConfig]) -> None:
-        processes, nest = hatch(configs)
-        self._processes += processes
-        self._nests.append(nest)
-        for process in processes:
+        started: list[EndpointProcess] = []
+        per_nest = max(1, MOST_IN_A_NEST // len(configs[0].endpoints))
+        for i in range(0, len(configs), per_nest):
+            processes, nest = hatch(configs[i : i + per_nest])
+            started += processes
+            self._processes += processes
+            self._nests.append(nest)
+        for process in started:
             for one in process.config.endpoints:
                 self.endpoints[one.vehicle.sysid] = Endpoint(one.vehicle.sysid, one.vehicle.name, process)
-        self._wait_until_ready(processes)
+        self._wait_until_ready(started)
 
     def _wait_until_ready(self, processes: list[EndpointProcess]) -> None:
         deadline = time.monotonic() + START_TIMEOUT_S

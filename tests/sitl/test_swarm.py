@@ -184,6 +184,15 @@ def ticks_flown(truth: Path) -> int:
     return truth.stat().st_size // 48
 
 
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="the system does not tell")
+def test_more_than_a_nest_holds_are_forked_from_several(vee: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sitl.swarm.MOST_IN_A_NEST", 4)
+    with Swarm(vee, replace(OPTIONS, per_process=2)) as swarm:
+        pids = {endpoint.process.pid for endpoint in swarm.endpoints.values()}
+        nests = {Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1] for pid in pids}
+        assert (len(pids), len(nests)) == (5, 3)
+
+
 def test_vehicles_beyond_the_scenarios_fly_too(vee: Scenario) -> None:
     with Swarm(vee, replace(OPTIONS, count=30, sysid_base=101, per_process=15)) as swarm:
         assert list(swarm.endpoints) == list(range(101, 131))
