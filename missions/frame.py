@@ -1,14 +1,10 @@
 """The local frame: x east, y north in metres around the scenario's origin; z is altitude above its datum."""
 
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-from pyproj import Proj
-
+from missions.geodesic import direct, inverse
 from missions.mission import degrees_to_e7
-
-FloatArray = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -23,26 +19,21 @@ class LocalFrame:
     lat_deg: float
     lon_deg: float
     alt_m: float
-    _projection: Proj = field(init=False, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        projection = Proj(proj="aeqd", ellps="WGS84", lat_0=self.lat_deg, lon_0=self.lon_deg)
-        object.__setattr__(self, "_projection", projection)
 
     def to_local(self, lat_deg: float, lon_deg: float) -> tuple[float, float]:
-        """Degrees to (x, y) in metres."""
-        x, y = self._projection(lon_deg, lat_deg)
-        return float(x), float(y)
+        """Degrees to (x, y) in metres; infinite where there is no such latitude."""
+        if not abs(lat_deg) <= 90.0:
+            return math.inf, math.inf
+        distance_m, azimuth = inverse(
+            math.radians(self.lat_deg), math.radians(lat_deg), math.radians(lon_deg - self.lon_deg)
+        )
+        return distance_m * math.sin(azimuth), distance_m * math.cos(azimuth)
 
     def to_geodetic(self, x_m: float, y_m: float) -> tuple[float, float]:
         """(x, y) in metres to (latitude, longitude) in degrees."""
-        lon_deg, lat_deg = self._projection(x_m, y_m, inverse=True)
-        return float(lat_deg), float(lon_deg)
-
-    def to_geodetic_many(self, x_m: FloatArray, y_m: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The same for arrays of one shape."""
-        lon_deg, lat_deg = self._projection(x_m, y_m, inverse=True)
-        return lat_deg, lon_deg
+        phi, east = direct(math.radians(self.lat_deg), math.sqrt(x_m * x_m + y_m * y_m), math.atan2(x_m, y_m))
+        lon_deg = self.lon_deg + math.degrees(east)
+        return math.degrees(phi), (lon_deg + 180.0) % 360.0 - 180.0 if abs(lon_deg) > 180.0 else lon_deg
 
     def to_e7(self, x_m: float, y_m: float) -> tuple[int, int]:
         """(x, y) in metres to (latitude, longitude) in the wire's 1e-7 degrees."""

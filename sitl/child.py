@@ -2,71 +2,103 @@
 
 import contextlib
 import multiprocessing
+import os
 import signal
 import threading
 import time
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from multiprocessing import forkserver
-from multiprocessing.connection import wait
-from multiprocessing.context import ForkServerProcess
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
 
+from sitl.nest import run_nest
 from sitl.process import ProcessConfig, run_process
-from sitl.reports import Ended, Failed, Ready
+from sitl.reports import Died, Ended, Failed, Hatched, Ready, Report
 
 
 class EndpointProcess:
-    """A process of endpoints, seen from the station. Starts at once.
+    """A process of endpoints, seen from the station.
 
     Args:
         config: of the process.
+        reports: what it and its nest tell.
+
+    Attributes:
+        pid: its number, once it is known.
+        exit_code: once it has ended, minus the number of the signal that ended it; None where nobody knows.
+        ready, last: reports of its vehicles, by sysid.
     """
 
-    def __init__(self, config: ProcessConfig) -> None:
+    def __init__(self, config: ProcessConfig, reports: Connection) -> None:
         self.config = config
-        context = multiprocessing.get_context("forkserver")
-        context.set_forkserver_preload(["sitl.process"])
-        with _deaf_children():
-            forkserver.ensure_running()
-        self.reports, child_end = context.Pipe(duplex=False)
-        sysids = [endpoint.vehicle.sysid for endpoint in config.endpoints]
-        name = "skein-" + "-".join(map(str, sorted({sysids[0], sysids[-1]})))
-        self.process: ForkServerProcess = context.Process(
-            target=run_process, args=(config, child_end), name=name, daemon=True
-        )
-        self.process.start()
-        child_end.close()
+        self.reports = reports
+        self.pid: int | None = None
+        self.exit_code: int | None = None
         self.ready: dict[int, Ready] = {}
         self.last: dict[int, Ended | Failed] = {}
+        self._open = True
 
     @property
     def starting(self) -> bool:
         """Whether some of its vehicles are not ready yet."""
         return len(self.ready) < len(self.config.endpoints)
 
-    def read_reports(self) -> bool:
-        """Take what the process has reported so far; whether more may come."""
+    def is_alive(self) -> bool:
+        """Whether it has not ended yet; takes what it has reported so far."""
         try:
-            while self.reports.poll():
-                report = self.reports.recv()
-                if isinstance(report, Ready):
-                    self.ready[report.sysid] = report
-                else:
-                    self.last[report.sysid] = report
+            while self._open and self.reports.poll():
+                self._take(self.reports.recv())
         except (EOFError, OSError):
-            return False
-        return True
+            self._open = False
+        return self._open
+
+    def _take(self, report: Report) -> None:
+        match report:
+            case Hatched(pid):
+                self.pid = pid
+            case Ready(sysid):
+                self.ready[sysid] = report
+            case Ended(sysid) | Failed(sysid):
+                self.last[sysid] = report
+            case Died(exit_code):
+                self.exit_code = exit_code
+
+    def terminate(self) -> None:
+        """Ask it to end."""
+        self._signal(signal.SIGTERM)
+
+    def kill(self) -> None:
+        """End it by force."""
+        self._signal(signal.SIGKILL)
+
+    def _signal(self, number: signal.Signals) -> None:
+        while self.is_alive() and self.pid is None:
+            wait([self.reports])
+        if self.is_alive() and self.pid is not None:
+            with contextlib.suppress(ProcessLookupError):  # its nest is about to say so
+                os.kill(self.pid, number)
 
     def end(self, deadline: float) -> None:
         """See the process, which was told to terminate, to its end: by force after the deadline (monotonic time)."""
-        while self.process.is_alive() and (left_s := deadline - time.monotonic()) > 0.0:
-            if self.reports in wait([self.process.sentinel, self.reports], left_s) and not self.read_reports():
-                self.process.join(left_s)  # its end of the pipe is closed, nothing more will come
-        if self.process.is_alive():
-            self.process.kill()
-            self.process.join()
-        self.read_reports()
+        while self.is_alive() and (left_s := deadline - time.monotonic()) > 0.0:
+            wait([self.reports], left_s)
+        self.kill()
+        while self.is_alive():
+            wait([self.reports])
         self.reports.close()
+
+
+def hatch(configs: Sequence[ProcessConfig]) -> tuple[list[EndpointProcess], BaseProcess]:
+    """Start processes; returns them and the nest that they are forked from, which ends with the last of them."""
+    context = multiprocessing.get_context("spawn")
+    pipes = [context.Pipe(duplex=False) for _ in configs]
+    ends = [end for _, end in pipes]
+    nest = context.Process(target=run_nest, args=(run_process, configs, ends), name="skein-nest", daemon=True)
+    with _deaf_children():
+        nest.start()
+    for end in ends:
+        end.close()
+    return [EndpointProcess(config, reports) for config, (reports, _) in zip(configs, pipes, strict=True)], nest
 
 
 @dataclass
@@ -75,38 +107,33 @@ class Endpoint:
 
     Attributes:
         sysid, name: of the vehicle.
-        owner: the process that it is in, alone or with others.
+        process: that it is in, alone or with others.
     """
 
     sysid: int
     name: str
-    owner: EndpointProcess = field(repr=False)
-
-    @property
-    def process(self) -> ForkServerProcess:
-        """The process that it is in."""
-        return self.owner.process
+    process: EndpointProcess
 
     @property
     def ready(self) -> Ready | None:
         """Where it answers, as soon as it does."""
-        return self.owner.ready.get(self.sysid)
+        return self.process.ready.get(self.sysid)
 
     @property
     def last(self) -> Ended | Failed | None:
         """Its last report, when it has ended."""
-        return self.owner.last.get(self.sysid)
+        return self.process.last.get(self.sysid)
 
     def obituary(self) -> str | None:
         """Why the vehicle was lost; None while it flies. Not to be asked once the clock was told to stop."""
-        self.owner.read_reports()
+        alive = self.process.is_alive()
         if isinstance(self.last, Failed):
             return self.last.reason
         if isinstance(self.last, Ended):
             return f"process ended at tick {self.last.tick}, though nobody had stopped its clock"
-        if self.process.is_alive():
+        if alive:
             return None
-        code = self.process.exitcode or 0
+        code = self.process.exit_code or 0
         return f"process killed by {signal.Signals(-code).name}" if code < 0 else f"process ended with code {code}"
 
 

@@ -1,10 +1,9 @@
-"""One process of endpoints: opens everything, flies tick by tick, closes everything."""
+"""One process of endpoints: meets its neighbours, flies tick by tick, closes everything."""
 
 import contextlib
 import math
 import os
-import signal
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
@@ -47,11 +46,14 @@ class ProcessConfig:
     real_time: bool = False
 
 
-def run_process(config: ProcessConfig, reports: Connection) -> None:
-    """Fly vehicles until their clock is stopped, they are told to terminate, or who started them has gone."""
-    for name in ("SIGINT", "SIGHUP"):  # Ctrl-C and a closed terminal hit the whole group; the station stops us
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), signal.SIG_IGN)
+def run_process(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connection) -> None:
+    """Fly vehicles until their clock is stopped, they are told to terminate, or who started them has gone.
+
+    Args:
+        config: of the process.
+        endpoints: its vehicles.
+        reports: where the station hears of them.
+    """
 
     def end_at_once() -> None:
         discard_sockets(config.peer)
@@ -59,23 +61,18 @@ def run_process(config: ProcessConfig, reports: Connection) -> None:
 
     ending = Ending(end_at_once)
     try:
-        _serve(config, reports, ending)
+        _serve(config, endpoints, reports, ending)
     except Exception as error:  # whatever it was, the station is to know why it lost its vehicles
         sysids = [endpoint.vehicle.sysid for endpoint in config.endpoints]
-        why = str(error) if isinstance(error, _NotOpenedError) else reason(sysids[0], error)
+        why = reason(sysids[0], error)
         with contextlib.suppress(OSError):
             for sysid in sysids:
                 reports.send(Failed(sysid, why))
     discard_sockets(config.peer)
 
 
-class _NotOpenedError(Exception):
-    """An endpoint could not be opened; the message names it."""
-
-
-def _serve(config: ProcessConfig, reports: Connection, ending: Ending) -> None:
+def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connection, ending: Ending) -> None:
     with open_session(config.peer, real_time=config.real_time) as session:
-        endpoints = list(_opened(config.endpoints))
         clock = Clock(held=config.held, speed=config.speed, real_time=config.real_time)
         exchange = _exchange(config, session, endpoints, clock)
         clock.on_stop = exchange.stop
@@ -117,14 +114,6 @@ def _exchange(config: ProcessConfig, session: zenoh.Session, endpoints: Sequence
         return LiveExchange(session, config.swarm, delays, vehicle.network, vehicle.seed, clock.now_ticks)
     last_ticks = {sysid: tick - 1 for sysid, tick in vehicle.network.deaths.items()}
     return Exchange(session, config.swarm, delays, last_ticks)
-
-
-def _opened(configs: tuple[EndpointConfig, ...]) -> Iterator[Endpoint]:
-    for config in configs:
-        try:
-            yield Endpoint(config)
-        except Exception as error:
-            raise _NotOpenedError(reason(config.vehicle.sysid, error)) from error
 
 
 def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) -> None:

@@ -1,8 +1,22 @@
-"""What a process of endpoints reports to who started it, each of one vehicle."""
+"""What a process of endpoints reports to who started it, most of it of one vehicle."""
 
 from dataclasses import dataclass
 
 from sitl.formation.link_report import LinkReport
+
+
+@dataclass(frozen=True)
+class Hatched:
+    """First report of a process: its number."""
+
+    pid: int
+
+
+@dataclass(frozen=True)
+class Died:
+    """Last report of a process, made for it: its exit code, minus the number of the signal that ended it."""
+
+    exit_code: int
 
 
 @dataclass(frozen=True)
@@ -41,4 +55,4 @@ class Failed:
     edges: tuple[tuple[int, int, bool], ...] = ()
 
 
-Report = Ready | Ended | Failed
+Report = Hatched | Ready | Ended | Failed | Died

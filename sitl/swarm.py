@@ -7,12 +7,13 @@ import time
 import uuid
 from dataclasses import dataclass, replace
 from multiprocessing.connection import wait
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 from types import TracebackType
 
 from missions.errors import InputError
 from missions.scenario import Scenario
-from sitl.child import Endpoint, EndpointProcess
+from sitl.child import Endpoint, EndpointProcess, hatch
 from sitl.config import Arm, VehicleConfig
 from sitl.endpoint import EndpointConfig
 from sitl.formation.vehicle_gains import vehicle_gains
@@ -26,6 +27,8 @@ START_TIMEOUT_S = 60.0
 END_TIMEOUT_S = 5.0
 MOST_PROCESSES = 24
 """Larger swarms share processes, as many as there are cores, unless told otherwise."""
+MOST_IN_A_NEST = 100
+"""Vehicles, unless they are of one process: the sockets of all are open in it until it has forked them."""
 
 
 @dataclass(frozen=True)
@@ -104,10 +107,11 @@ class Swarm:
         else:
             self._peers, self._station_peer = local_peers(range(len(groups)))
         self._processes: list[EndpointProcess] = []
+        self._nests: list[BaseProcess] = []
         self.endpoints: dict[int, Endpoint] = {}
         try:
-            for i, group in enumerate(groups):
-                self._start(
+            self._start(
+                [
                     ProcessConfig(
                         group,
                         self.name,
@@ -116,8 +120,9 @@ class Swarm:
                         speed=options.speed,
                         real_time=options.real_time,
                     )
-                )
-            self._wait_until_ready(self._processes)
+                    for i, group in enumerate(groups)
+                ]
+            )
         except BaseException:
             self.end()
             raise
@@ -139,26 +144,32 @@ class Swarm:
         Raises:
             InputError: they could not start.
         """
-        old = self.endpoints[sysid].owner
-        old.process.terminate()
+        old = self.endpoints[sysid].process
+        old.terminate()
         old.end(time.monotonic() + END_TIMEOUT_S)
         self._processes.remove(old)
         make_socket_folder(old.config.peer)
         endpoints = tuple(replace(endpoint, start_tick=tick) for endpoint in old.config.endpoints)
-        self._wait_until_ready([self._start(replace(old.config, endpoints=endpoints))])
+        self._start([replace(old.config, endpoints=endpoints)])
 
-    def _start(self, config: ProcessConfig) -> EndpointProcess:
-        process = EndpointProcess(config)
-        self._processes.append(process)
-        for one in config.endpoints:
-            self.endpoints[one.vehicle.sysid] = Endpoint(one.vehicle.sysid, one.vehicle.name, process)
-        return process
+    def _start(self, configs: list[ProcessConfig]) -> None:
+        started: list[EndpointProcess] = []
+        per_nest = max(1, MOST_IN_A_NEST // len(configs[0].endpoints))
+        for i in range(0, len(configs), per_nest):
+            processes, nest = hatch(configs[i : i + per_nest])
+            started += processes
+            self._processes += processes
+            self._nests.append(nest)
+        for process in started:
+            for one in process.config.endpoints:
+                self.endpoints[one.vehicle.sysid] = Endpoint(one.vehicle.sysid, one.vehicle.name, process)
+        self._wait_until_ready(started)
 
     def _wait_until_ready(self, processes: list[EndpointProcess]) -> None:
         deadline = time.monotonic() + START_TIMEOUT_S
         while starting := [process for process in processes if process.starting]:
             wait([process.reports for process in starting], timeout=1.0)
-            missing = [e for e in self.endpoints.values() if e.owner in starting and e.ready is None]
+            missing = [e for e in self.endpoints.values() if e.process in starting and e.ready is None]
             for endpoint in missing:
                 if reason := endpoint.obituary():
                     raise InputError(reason)
@@ -168,10 +179,12 @@ class Swarm:
     def end(self) -> None:
         """End all processes: by request, then by force."""
         for process in self._processes:
-            process.process.terminate()
+            process.terminate()
         deadline = time.monotonic() + END_TIMEOUT_S
         for process in self._processes:
             process.end(deadline)
+        for nest in self._nests:
+            nest.join()
         for peer in self._peers.values():  # who was killed could not do it
             discard_sockets(peer)
 

@@ -83,6 +83,7 @@ def _settings(peer: Peer) -> dict[str, object]:
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
         "scouting/delay": 0,
+        "transport/shared_memory/enabled": False,
     }
 
 

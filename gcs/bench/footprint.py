@@ -58,7 +58,7 @@ async def _fetch(port: int, sysids: list[int]) -> tuple[int, float]:
 
 
 def _pss_mib(pids: set[int | None]) -> float | None:
-    """Of these processes and their parents (the fork server), which are no parents of this one."""
+    """Of these processes and the nest that they are forked from."""
     try:
         parents = {int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1]) for pid in pids}
         return sum(_pss_kib(pid) for pid in pids | parents) / _KIB_PER_MIB

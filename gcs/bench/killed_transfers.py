@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
-from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias
@@ -26,6 +25,7 @@ from missions.mission import MissionItem
 from missions.plan_type import HELD, PlanType
 from missions.scenario import load_scenario
 from sitl import child
+from sitl.child import EndpointProcess
 from sitl.swarm import Swarm, SwarmOptions
 
 Items: TypeAlias = tuple[MissionItem, ...]
@@ -120,7 +120,7 @@ class KilledTransfers:
             with patch.object(child, "run_process", partial(run_until_line, step)):
                 self.restart()
             with self._station() as station:
-                outcome = station.run(self._upload(plan), endpoint=self._process.sentinel)
+                outcome = station.run(self._upload(plan), endpoint=self._process.reports.fileno())
             self.restart()
             self._look(plan, kills)
             if outcome is not None:
@@ -163,7 +163,7 @@ class KilledTransfers:
         self.swarm.restart(self.sysid)
 
     @property
-    def _process(self) -> ForkServerProcess:
+    def _process(self) -> EndpointProcess:
         return self.swarm.endpoints[self.sysid].process
 
     @property

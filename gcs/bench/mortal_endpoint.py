@@ -3,16 +3,18 @@
 import os
 import signal
 import threading
+from collections.abc import Sequence
 from itertools import count
 from multiprocessing.connection import Connection
 from types import FrameType
 from typing import Any
 
 from sitl import store
+from sitl.endpoint import Endpoint
 from sitl.process import ProcessConfig, run_process
 
 
-def run_until_line(line: int, config: ProcessConfig, reports: Connection) -> None:
+def run_until_line(line: int, config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connection) -> None:
     """`run_process`, killed before a line of `sitl.store`: the first is 1, counted from when stations are served."""
     left = count(line - 1, -1)
 
@@ -24,4 +26,4 @@ def run_until_line(line: int, config: ProcessConfig, reports: Connection) -> Non
         return trace
 
     threading.settrace(trace)  # in the thread that serves, which is started later
-    run_process(config, reports)
+    run_process(config, endpoints, reports)

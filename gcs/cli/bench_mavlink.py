@@ -31,7 +31,7 @@ def measure_mavlink(quick: bool, json: bool) -> None:
         table.add_row(f"the same: {name}", f"{seconds:.3f} s, {seconds / stations.skein_s:.1f} times as long")
     table.add_row(f"{footprint.vehicles} endpoints ready", f"{footprint.ready_s:.2f} s")
     if footprint.pss_mib is not None:
-        table.add_row("their memory (PSS), fork server included", f"{footprint.pss_mib:.0f} MiB")
+        table.add_row("their memory (PSS), that of their nest included", f"{footprint.pss_mib:.0f} MiB")
     table.add_row(f"their {footprint.parameters} parameters fetched", f"{footprint.parameters_s:.3f} s")
     table.add_row(
         f"{load.vehicles} vehicles at {load.rate_hz:g} messages a second into one station",

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import numpy.typing as npt
+from pyproj import Proj
 
 from missions.elevation.source import ElevationSource
 from missions.environment import Area
@@ -33,7 +34,7 @@ def resample(source: ElevationSource, frame: LocalFrame, area: Area, spacing_m: 
     x, y = (_axis(low, high, spacing_m) for low, high in (area[0:2], area[2:4]))
     if x.size * y.size > POSTS_MAX:
         raise InputError(f"{x.size} by {y.size} posts over the area are too many; set terrain.spacing_m to more")
-    lat_deg, lon_deg = frame.to_geodetic_many(*np.meshgrid(x, y))
+    lat_deg, lon_deg = geodetic(frame, *np.meshgrid(x, y))
     columns, rows = source.cells_of(lon_deg, lat_deg)
     if not (np.isfinite(columns).all() and np.isfinite(rows).all()):
         raise InputError(ELSEWHERE)
@@ -66,10 +67,17 @@ def check_local_cover(raster: Raster, area: Area) -> None:
         raise InputError(f"posts_m has no height at {void} of {raster.posts.size} posts; fill its voids")
 
 
+def geodetic(frame: LocalFrame, x_m: FloatArray, y_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Latitudes and longitudes in degrees of arrays of points in a local frame, as its `to_geodetic` has them."""
+    projection = Proj(proj="aeqd", ellps="WGS84", lat_0=frame.lat_deg, lon_0=frame.lon_deg)
+    lon_deg, lat_deg = projection(x_m, y_m, inverse=True)
+    return lat_deg, lon_deg
+
+
 def _own_spacing_m(source: ElevationSource, frame: LocalFrame, area: Area) -> float:
     """The smaller distance of neighbouring posts along columns and rows, in the middle of the area."""
     x, y, step = (area.x_min_m + area.x_max_m) / 2.0, (area.y_min_m + area.y_max_m) / 2.0, 10.0
-    lat_deg, lon_deg = frame.to_geodetic_many(np.array([x, x + step, x]), np.array([y, y, y + step]))
+    lat_deg, lon_deg = geodetic(frame, np.array([x, x + step, x]), np.array([y, y, y + step]))
     columns, rows = source.cells_of(lon_deg, lat_deg)
     cells = np.abs([np.diff(columns[:2])[0], columns[2] - columns[0], np.diff(rows[:2])[0], rows[2] - rows[0]])
     if not np.isfinite(cells).all():

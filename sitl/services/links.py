@@ -7,6 +7,7 @@ import socket
 import threading
 import time
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Protocol
 
 from missions.errors import InputError
@@ -62,9 +63,6 @@ class StationLinks:
         self._wake_reader, self._wake_writer = socket.socketpair()
         self._wake_reader.setblocking(False)
         self._wake_writer.setblocking(False)
-        self._selector = selectors.DefaultSelector()
-        for reader in (self._listener, self._udp, self._wake_reader):
-            self._selector.register(reader, selectors.EVENT_READ)
         self._lock = threading.Lock()
         self._clients: dict[Peer, TcpClient] = {}
         self._stations = frozenset(Peer("udp", *station) for station in stations)
@@ -72,6 +70,14 @@ class StationLinks:
         self.refused = 0
         self.tcp_port = int(self._listener.getsockname()[1])
         self.udp_port = int(self._udp.getsockname()[1])
+
+    @cached_property
+    def _selector(self) -> selectors.DefaultSelector:
+        """Made in the process that polls, since a fork does not always inherit one."""
+        selector = selectors.DefaultSelector()
+        for reader in (self._listener, self._udp, self._wake_reader):
+            selector.register(reader, selectors.EVENT_READ)
+        return selector
 
     def attach(self, face: Face) -> None:
         """Serve this face from now on."""

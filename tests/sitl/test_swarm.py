@@ -50,9 +50,19 @@ def test_nine_start_answer_at_ports_of_their_own_and_end_as_told(vee: Scenario, 
     assert not sockets.exists()
 
 
-def test_an_endpoint_loads_no_numba_scipy_or_pydantic() -> None:
-    check = "import sys, sitl.process; print({'numba', 'scipy', 'pydantic', 'matplotlib'} & set(sys.modules))"
+def test_an_endpoint_loads_nothing_heavy_but_numpy() -> None:
+    heavy = {"numba", "scipy", "pydantic", "matplotlib", "pyproj", "rasterio", "typer", "rich", "asyncio"}
+    check = f"import sys, sitl.nest; print({heavy} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", check], capture_output=True, text=True).stdout.strip() == "set()"
+
+
+@pytest.mark.skipif(not Path("/proc/self/smaps_rollup").exists(), reason="the system does not tell")
+def test_endpoints_share_most_of_their_memory(vee: Scenario) -> None:
+    with Swarm(vee, OPTIONS) as swarm:
+        for endpoint in swarm.endpoints.values():
+            lines = Path(f"/proc/{endpoint.process.pid}/smaps_rollup").read_text().splitlines()[1:]
+            kib = {key: int(value.split()[0]) for key, value in (line.split(":") for line in lines)}
+            assert kib["Private_Clean"] + kib["Private_Dirty"] < kib["Rss"] / 3
 
 
 def test_a_port_in_use_is_named_and_nothing_is_left_running(vee: Scenario) -> None:
@@ -68,6 +78,8 @@ def test_a_killed_endpoint_has_an_obituary_and_the_others_fly_on(vee: Scenario, 
         os.kill(victim.process.pid or 0, signal.SIGKILL)
         wait_until(lambda: victim.obituary() is not None)
         assert victim.obituary() == "process killed by SIGKILL"
+        assert victim.ready is not None
+        assert not listens(victim.ready.tcp_port), "nobody else has its sockets open"
         size = (tmp_path / "1.f64").stat().st_size
         wait_until(lambda: (tmp_path / "1.f64").stat().st_size > size + 100_000)
         assert all(endpoint.obituary() is None for endpoint in swarm.endpoints.values() if endpoint is not victim)
@@ -170,6 +182,15 @@ def test_a_killed_endpoint_can_be_started_again_and_catches_up_with_the_others(v
 
 def ticks_flown(truth: Path) -> int:
     return truth.stat().st_size // 48
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="the system does not tell")
+def test_more_than_a_nest_holds_are_forked_from_several(vee: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sitl.swarm.MOST_IN_A_NEST", 4)
+    with Swarm(vee, replace(OPTIONS, per_process=2)) as swarm:
+        pids = {endpoint.process.pid for endpoint in swarm.endpoints.values()}
+        nests = {Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1] for pid in pids}
+        assert (len(pids), len(nests)) == (5, 3)
 
 
 def test_vehicles_beyond_the_scenarios_fly_too(vee: Scenario) -> None:

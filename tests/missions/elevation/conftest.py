@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from missions.elevation.resample import geodetic
 from missions.environment import ground_heights_m
 from missions.scenario import Scenario, load_scenario, read_scenario_text
 
@@ -86,7 +87,7 @@ def largest_error_m() -> Callable[[Scenario], float]:
 
     def compare(scenario: Scenario) -> float:
         x, y = np.random.default_rng(1).uniform(-5000.0, 5000.0, (2, 2000))
-        lat_deg, lon_deg = scenario.frame.to_geodetic_many(x, y)
+        lat_deg, lon_deg = geodetic(scenario.frame, x, y)
         ground = ground_heights_m(x, y, scenario.environment.terrain)
         return float(np.abs(ground + 100.0 - hills_m(lat_deg, lon_deg)).max())
 
