@@ -10,6 +10,7 @@ from sitl.avoidance.yielding import Yielding
 from sitl.config import VehicleConfig
 from sitl.events import NOTICE, WARNING, StatusText
 from sitl.formation.failures import within
+from sitl.formation.swarm_clock import schedule_clock
 from sitl.pilot import Phase, Pilot
 from sitl.stages.path import PathStage
 from sitl.ticks import TICK_S
@@ -83,7 +84,7 @@ class Lookout:
             pilot.flight.point,
             air.V,
             pilot.airspeed_wanted_m_s,
-            (pilot.tick - stage.started_tick) * TICK_S,
+            schedule_clock((pilot.tick - stage.started_tick) * TICK_S, pilot.shifts),
             stage.end_s_m,
             pilot.follows_schedule,
             stage.tables,

@@ -9,7 +9,7 @@ from missions.reference.path import path_at
 from missions.reference.reference import ReferenceTables
 from missions.reference.smoothing import quadratic_at
 from sitl.avoidance.intent import STEP_S
-from sitl.guidance.path_errors import PathErrors, PathPoint
+from sitl.guidance.path_errors import PathErrors, PathPoint, ScheduleClock
 from sitl.guidance.path_law import clamp
 
 LAG_S = 2.5
@@ -24,7 +24,7 @@ class Situation(NamedTuple):
     Attributes:
         position, errors, point: of the aircraft.
         airspeed, airspeed_wanted: that it has, and that is commanded there.
-        time_s: of its schedule.
+        clock: of its schedule.
         end_s_m: arc length at which its path ends.
         follows: it keeps its schedule; otherwise it holds an airspeed.
         tables: of its path.
@@ -35,7 +35,7 @@ class Situation(NamedTuple):
     point: PathPoint
     airspeed: float
     airspeed_wanted: float
-    time_s: float
+    clock: ScheduleClock
     end_s_m: float
     follows: bool
     tables: ReferenceTables
@@ -45,13 +45,14 @@ class Pace(NamedTuple):
     """How it goes along its path, and above it.
 
     Attributes:
-        time_s, lead_m: of its schedule, and how far it is ahead of that, now.
+        time_s, rate, lead_m: of its schedule's clock, and how far it is ahead of that, now.
         drift_m_s: how the lead changes by itself; one that `settles` goes to 0 and stays there.
         speed_m_s, most_ahead_m: what it flies faster to give way, until so much has come of it.
         raised_m, climb_m_s, most_up_m: how far above its path it is to be, how that changes, and up to what.
     """
 
     time_s: float
+    rate: float
     lead_m: float
     drift_m_s: float
     settles: bool
@@ -83,7 +84,7 @@ def predict(pace: Pace, now: Situation, most: int, points: Any) -> int:
     tables = now.tables
     for i in range(1, most):
         t_s = i * STEP_S
-        s, _, _, schedule_piece = quadratic_at(pace.time_s + t_s, schedule_piece, tables.schedule)
+        s, _, _, schedule_piece = quadratic_at(pace.time_s + pace.rate * t_s, schedule_piece, tables.schedule)
         s += lead_in(t_s, pace)
         if s >= now.end_s_m:
             return i
@@ -95,7 +96,7 @@ def predict(pace: Pace, now: Situation, most: int, points: Any) -> int:
 
 def scheduled_at(now: Situation) -> tuple[float, float]:
     """When its schedule is where it is, and how fast that is there."""
-    time_s, piece = now.time_s, now.point.schedule_piece
+    time_s, piece = now.clock.time_s, now.point.schedule_piece
     s, rate, _, piece = quadratic_at(time_s, piece, now.tables.schedule)
     for _ in range(4):
         time_s += (now.point.s_m - s) / max(rate, SLOWEST_M_S)

@@ -113,9 +113,9 @@ def drift_of(now: Situation, manoeuvre: Manoeuvre) -> float:
 
 def surplus_of(now: Situation, manoeuvre: Manoeuvre) -> float:
     """How much faster than its schedule it is, or would be, at the commanded airspeed: what the wind makes of it."""
-    _, rate, _, _ = quadratic_at(now.time_s, now.point.schedule_piece, now.tables.schedule)
+    _, rate, _, _ = quadratic_at(now.clock.time_s, now.point.schedule_piece, now.tables.schedule)
     _, rate_there = scheduled_at(now)
-    new = now.errors.along_rate + rate - rate_there - (now.airspeed - now.airspeed_wanted)
+    new = now.errors.along_rate + rate * now.clock.rate - rate_there - (now.airspeed - now.airspeed_wanted)
     return manoeuvre.surplus_m_s + WIND_SHARE * (new - manoeuvre.surplus_m_s)
 
 
@@ -123,8 +123,9 @@ def pace_alone(now: Situation, manoeuvre: Manoeuvre) -> float:
     """The pace of one who hangs, in shares of what it intends: it holds its airspeed."""
     if not now.follows:
         return 1.0
-    _, rate, _, _ = quadratic_at(now.time_s, now.point.schedule_piece, now.tables.schedule)
-    return clamp(1.0 + manoeuvre.surplus_m_s / max(rate, SLOWEST_M_S), SLOWEST, FASTEST)
+    _, rate, _, _ = quadratic_at(now.clock.time_s, now.point.schedule_piece, now.tables.schedule)
+    alone = (rate + manoeuvre.surplus_m_s) / max(rate * now.clock.rate, SLOWEST_M_S)
+    return clamp(alone, SLOWEST, FASTEST)
 
 
 def return_speed(now: Situation, airframe: Airframe) -> float:
@@ -165,16 +166,15 @@ def climb_left(airspeed: float, now: Situation, airframe: Airframe) -> float:
 def pace_of(now: Situation, manoeuvre: Manoeuvre, separation_m: float) -> Pace:
     """How it goes on with a manoeuvre."""
     most_ahead, most_up = LENGTHS * separation_m, HEIGHTS * separation_m
+    time_s, rate, lead, drift, settles = now.clock.time_s, now.clock.rate, now.errors.along, 0.0, False
     if not now.follows:
         time_s, _ = scheduled_at(now)
-        lead, drift, settles = 0.0, manoeuvre.surplus_m_s, False
+        rate, lead, drift = 1.0, 0.0, manoeuvre.surplus_m_s
     elif manoeuvre.action == FREE:
-        time_s, lead, settles = now.time_s, now.errors.along, True
-        drift = manoeuvre.drift_m_s if lead * manoeuvre.drift_m_s < 0.0 else 0.0
-    else:
-        time_s, lead, drift, settles = now.time_s, now.errors.along, 0.0, False
+        drift, settles = manoeuvre.drift_m_s if lead * manoeuvre.drift_m_s < 0.0 else 0.0, True
     return Pace(
         time_s,
+        rate,
         lead,
         drift,
         settles,

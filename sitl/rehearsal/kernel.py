@@ -223,7 +223,7 @@ def fly_one(
             airspeed = airspeed_at(point.s_m, tables.airspeeds)
             if told_at(tick, avoiding):
                 end_s_m, follows = routes.end_s_m[p], not law.plain
-                here = Situation(position, errors, point, air.V, airspeed, tick * TICK_S, end_s_m, follows, tables)
+                here = Situation(position, errors, point, air.V, airspeed, clock, end_s_m, follows, tables)
                 tell_and_learn(p, tick, able, here, manoeuvre, aircraft.airframe, avoiding)
             if manoeuvre.action != FREE:
                 ahead = yielding_acceleration(errors, manoeuvre, airspeed, air.V, not law.plain)

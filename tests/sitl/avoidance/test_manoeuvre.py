@@ -20,7 +20,7 @@ from sitl.avoidance.manoeuvre import (
     going_on,
     means,
 )
-from sitl.guidance.path_errors import START, PathErrors
+from sitl.guidance.path_errors import START, PathErrors, ScheduleClock
 
 SAFE_M = 75.0
 
@@ -28,7 +28,9 @@ SAFE_M = 75.0
 def situation(airspeed: float, slope: float) -> Situation:
     errors = PathErrors(0.0, 0.0, 0.0, 0.0, airspeed, 0.0, airspeed * slope, 0.0, 0.0, slope, 0.0)
     tables = ReferenceTables([], [], [], [], 0.0, 0.0)
-    return Situation((0.0, 0.0, 0.0), errors, START, airspeed, airspeed, 0.0, 0.0, True, tables)
+    return Situation(
+        (0.0, 0.0, 0.0), errors, START, airspeed, airspeed, ScheduleClock(0.0, 1.0, 0.0), 0.0, True, tables
+    )
 
 
 @given(st.sampled_from([SLOWER, FASTER, CLIMB, CLIMB_SLOWER]), st.floats(18.0, 36.0), st.floats(-0.1, 0.14))
