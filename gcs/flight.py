@@ -133,6 +133,7 @@ async def fly(
         real_time=options.real_time,
         behind_s=max((end.behind_s for end in ends), default=0.0),
         edges=tuple((tick, other, end.sysid, used) for end in last for tick, other, used in end.edges),
+        yieldings={end.sysid: end.yieldings for end in last},
     )
 
 

@@ -83,5 +83,6 @@ def rehearse_plan(
         delay_margin_s=delay_margin_s(scenario),
         edges=tuple(flown.edges),
         shifts=flown.shifts,
+        yieldings=flown.yieldings,
     )
     return flown.truth, record

@@ -31,6 +31,7 @@ class VehicleConfig:
         arm: how much of the law is on.
         swarm_clock: the schedule is slowed and hurried with the neighbours'.
         real_time: nobody waits for anybody; in lockstep otherwise.
+        avoid_m: the safe distance, where vehicles give way to each other; None where they do not.
     """
 
     sysid: int
@@ -48,3 +49,4 @@ class VehicleConfig:
     arm: Arm
     swarm_clock: bool = False
     real_time: bool = False
+    avoid_m: float | None = None

@@ -46,7 +46,9 @@ class Crew:
         """A vehicle fails as the scenario says. Its neighbours know when it falls silent: to them it stays there."""
         with self._lock:
             self.flying = {sysid: other for sysid, other in self.flying.items() if other is not endpoint}
-        self.report(Failed(endpoint.sysid, f"vehicle {endpoint.sysid}: {KILLED}", endpoint.edges()))
+        self.report(
+            Failed(endpoint.sysid, f"vehicle {endpoint.sysid}: {KILLED}", endpoint.edges(), endpoint.yieldings())
+        )
 
     def report(self, report: Report) -> None:
         """Tell the station; when it has gone there is nobody to tell."""

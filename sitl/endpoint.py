@@ -6,6 +6,9 @@ from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 from pathlib import Path
 
+from sitl.avoidance.avoider import Heard
+from sitl.avoidance.intent import Intent
+from sitl.avoidance.yielding import Yielding
 from sitl.config import VehicleConfig
 from sitl.events import StatusText
 from sitl.formation.correction import Correction
@@ -85,6 +88,16 @@ class Endpoint:
         with self._vehicle.lock:
             return self._vehicle.observe()
 
+    def intent(self) -> Intent:
+        """What to tell all others of this tick, after `observe`."""
+        with self._vehicle.lock:
+            return self._vehicle.intent()
+
+    def learn(self, heard: Heard, lost: Set[int]) -> None:
+        """Take in what the others intend, after `observe`; and fly on without those who are lost."""
+        with self._vehicle.lock:
+            self._vehicle.learn(heard, lost)
+
     def advance(self, heard: Mapping[int, Correction]) -> None:
         """End a tick with the deviations of (at least) the neighbours, and tell the stations what is due."""
         vehicle = self._vehicle
@@ -118,6 +131,10 @@ class Endpoint:
     def edges(self) -> tuple[tuple[int, int, bool], ...]:
         """(tick, neighbour, whether its edge counted from then on), of each change so far."""
         return self._vehicle.edges()
+
+    def yieldings(self) -> tuple[Yielding, ...]:
+        """Who was given way to so far."""
+        return self._vehicle.yieldings()
 
     def _delays_of(self, neighbours: Iterable[int]) -> dict[int, int]:
         return {other: self._network.channel_of(other, self.sysid).delay_ticks for other in neighbours}

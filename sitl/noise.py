@@ -14,6 +14,7 @@ class Stream(IntEnum):
 
     GUSTS = 1
     CHANNEL = 2
+    INTENTS = 3
 
 
 def generator(seed: int, sysid: int, stream: Stream) -> np.random.Generator:
@@ -21,9 +22,9 @@ def generator(seed: int, sysid: int, stream: Stream) -> np.random.Generator:
     return np.random.Generator(np.random.Philox(key=[seed, (sysid << 32) | stream]))
 
 
-def link_generator(seed: int, sender: int, receiver: int) -> np.random.Generator:
+def link_generator(seed: int, sender: int, receiver: int, stream: Stream = Stream.CHANNEL) -> np.random.Generator:
     """The same for what becomes of a link's samples, keyed by both its ends."""
-    return generator(seed, (receiver << 8) | sender, Stream.CHANNEL)
+    return generator(seed, (receiver << 8) | sender, stream)
 
 
 def normals(seed: int, sysid: int, stream: Stream, per_tick: int) -> Iterator[tuple[float, ...]]:
@@ -34,9 +35,11 @@ def normals(seed: int, sysid: int, stream: Stream, per_tick: int) -> Iterator[tu
             yield tuple(row)
 
 
-def uniforms(seed: int, sender: int, receiver: int, per_sample: int) -> Iterator[tuple[float, ...]]:
+def uniforms(
+    seed: int, sender: int, receiver: int, per_sample: int, stream: Stream = Stream.CHANNEL
+) -> Iterator[tuple[float, ...]]:
     """An endless stream of `per_sample` draws from [0, 1) for each sample of a link."""
-    draws = link_generator(seed, sender, receiver)
+    draws = link_generator(seed, sender, receiver, stream)
     while True:
         for row in draws.random((BLOCK, per_sample)).tolist():
             yield tuple(row)

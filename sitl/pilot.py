@@ -8,6 +8,7 @@ from enum import Enum, auto
 from missions.environment.terrain import ground_height_m
 from missions.reference.reference import Speed
 from sitl.aircraft.gusts import NORMALS_PER_TICK
+from sitl.avoidance.avoider import Avoider
 from sitl.config import VehicleConfig
 from sitl.flight import (
     LAUNCH_SLOPE,
@@ -72,6 +73,7 @@ class Pilot:
         in_formation: it keeps its schedule, and neighbours' corrections count.
         formation: what it hears of its neighbours.
         shifts: of its schedule.
+        avoider: how it gives way; None where vehicles do not.
         commanded: a speed that goes before the stage's.
         reached: mission items, until they are taken out.
     """
@@ -99,6 +101,7 @@ class Pilot:
             config.sysid, config.network, config.seed, real_time=config.real_time, clocked=config.swarm_clock
         )
         self._frozen = config.network.frozen(config.sysid)
+        self.avoider = Avoider(config) if config.avoid_m is not None else None
         self._own: deque[Correction] = deque(maxlen=self.formation.remembers_ticks)
         self._corrections = 0.0
 
@@ -171,7 +174,8 @@ class Pilot:
         along = along_rate = 0.0
         if isinstance(stage, PathStage) and self.phase is Phase.FLYING:
             self.errors = errors = self._errors_on(stage)
-            if self.commanded is None and not stage.on_final and not within(self.tick, self._frozen):
+            scheduled = self.commanded is None and not stage.on_final and not within(self.tick, self._frozen)
+            if scheduled and (self.avoider is None or not self.avoider.yields):
                 self.in_formation = True
                 along, along_rate = errors.along, errors.along_rate
         own = Correction(self._config.sysid, self.tick, self.tick, self.in_formation, along, along_rate)
@@ -210,6 +214,8 @@ class Pilot:
             ahead = self._ahead(errors)
             if self._config.swarm_clock:
                 self._shift_schedule(errors)
+            if self.avoider is not None:
+                errors = self.avoider.aside(errors)
             wanted = path_accelerations(errors, ahead, self.flight.air.V, aircraft.airframe)
             if stage.on_final:
                 aircraft = self._flapped
@@ -236,8 +242,16 @@ class Pilot:
             return stage.accelerations(self.flight, self.airspeed_wanted_m_s, self.tick)
         return stage.accelerations(self.flight, self.airspeed_wanted_m_s)
 
+    @property
+    def follows_schedule(self) -> bool:
+        """On its path it is where its schedule wants it, and does not just hold an airspeed."""
+        return self._config.arm != "plain" and self.commanded is None
+
     def _ahead(self, errors: PathErrors) -> float:
-        """u_t: a plain autopilot's, or the law's."""
+        """u_t: a plain autopilot's, or the law's, or that of one who gives way."""
+        if self.avoider is not None and self.avoider.yields:
+            follows, airspeed = self.follows_schedule, self.flight.air.V
+            return self.avoider.acceleration(errors, self.airspeed_wanted_m_s, airspeed, follows=follows)
         if self._config.arm == "plain" or not self.in_formation:
             return speed_acceleration(self.airspeed_wanted_m_s, self.flight.air.V)
         return formation_acceleration(errors, self._corrections, self._gains)

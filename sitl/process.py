@@ -10,6 +10,8 @@ from multiprocessing.connection import Connection
 import zenoh
 
 from missions.errors import InputError
+from sitl.avoidance.intent import PERIOD_TICKS
+from sitl.avoidance.intent_exchange import IntentExchange
 from sitl.clock import Clock, serve_clock
 from sitl.crew import Crew, reason
 from sitl.ending import Ending
@@ -21,6 +23,8 @@ from sitl.serving import serving
 from sitl.zenoh_session import Peer, alive_key, discard_sockets, open_session
 
 NEIGHBOURS_TIMEOUT_S = 30.0
+OTHERS_TIMEOUT_S = 1.0
+"""Who is not there by now is flown without, when a process is started again in flight."""
 KNOWN_TICKS = 25
 """How often vehicles are told what has come of their links."""
 
@@ -75,7 +79,14 @@ def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connec
     with open_session(config.peer, real_time=config.real_time) as session:
         clock = Clock(held=config.held, speed=config.speed, real_time=config.real_time)
         exchange = _exchange(config, session, endpoints, clock)
-        clock.on_stop = exchange.stop
+        intents = _intents(config, session, clock)
+
+        def on_stop() -> None:
+            exchange.stop()
+            if intents is not None:
+                intents.stop()
+
+        clock.on_stop = on_stop
         clock.tick = config.endpoints[0].start_tick
         ending.stop = clock.stop
         alive: dict[int, zenoh.LivelinessToken] = {}
@@ -91,11 +102,16 @@ def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connec
             alive[endpoint.sysid] = session.liveliness().declare_token(alive_key(config.swarm, endpoint.sysid))
         if missing := exchange.wait_for_neighbours(NEIGHBOURS_TIMEOUT_S):
             raise InputError(f"heard nothing of vehicles {sorted(missing)} over Zenoh")
+        if intents is not None:
+            begins = clock.tick == 0
+            missing = intents.wait_for_others(NEIGHBOURS_TIMEOUT_S if begins else OTHERS_TIMEOUT_S)
+            if begins and missing:
+                raise InputError(f"heard nothing of vehicles {sorted(missing)} over Zenoh")
 
         with serving(crew):
             for endpoint in endpoints:
                 crew.report(Ready(endpoint.sysid, endpoint.links.tcp_port, endpoint.links.udp_port))
-            _fly(crew, exchange, clock, config.endpoints[0])
+            _fly(crew, exchange, intents, clock, config.endpoints[0])
         for endpoint in endpoints:
             try:
                 endpoint.close()
@@ -103,8 +119,9 @@ def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connec
                 crew.leave(endpoint, error)
         for endpoint in crew.flying.values():
             alive[endpoint.sysid].undeclare()
-            links = exchange.reports(endpoint.sysid)
-            crew.report(Ended(endpoint.sysid, endpoint.tick, links, clock.most_behind_s, endpoint.edges()))
+            links = exchange.reports(endpoint.sysid) + (intents.reports(endpoint.sysid) if intents else ())
+            edges, yieldings = endpoint.edges(), endpoint.yieldings()
+            crew.report(Ended(endpoint.sysid, endpoint.tick, links, clock.most_behind_s, edges, yieldings))
 
 
 def _exchange(config: ProcessConfig, session: zenoh.Session, endpoints: Sequence[Endpoint], clock: Clock) -> Exchange:
@@ -116,7 +133,16 @@ def _exchange(config: ProcessConfig, session: zenoh.Session, endpoints: Sequence
     return Exchange(session, config.swarm, delays, last_ticks)
 
 
-def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) -> None:
+def _intents(config: ProcessConfig, session: zenoh.Session, clock: Clock) -> IntentExchange | None:
+    vehicle = config.endpoints[0].vehicle
+    if vehicle.avoid_m is None:
+        return None
+    here = [endpoint.vehicle.sysid for endpoint in config.endpoints]
+    now_ticks = clock.now_ticks if config.real_time else None
+    return IntentExchange(session, config.swarm, here, vehicle.network, now_ticks)
+
+
+def _fly(crew: Crew, exchange: Exchange, intents: IntentExchange | None, clock: Clock, first: EndpointConfig) -> None:
     """Tick by tick until the clock is stopped."""
     tick, lookahead_ticks = first.start_tick, first.vehicle.network.lookahead_ticks
     everyone, lost, fallen = crew.flying.keys(), set[int](), set[int]()
@@ -131,9 +157,13 @@ def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) ->
         for endpoint in crew.flying.values():
             try:
                 exchange.publish(endpoint.observe(), now=publish_now)
+                if intents is not None and tick % PERIOD_TICKS == 0:
+                    intents.publish(endpoint.intent())
             except Exception as error:
                 crew.leave(endpoint, error)
         exchange.gather(tick)
+        if intents is not None and tick % PERIOD_TICKS == 0:
+            intents.gather(tick)
         if clock.stopped:
             return
         now_lost = exchange.gone | {i for i in everyone - crew.flying.keys() if i not in fallen}
@@ -142,9 +172,12 @@ def _fly(crew: Crew, exchange: Exchange, clock: Clock, first: EndpointConfig) ->
                 if now_lost != lost:
                     endpoint.notice(now_lost, lost)
                     exchange.listen(endpoint.sysid, endpoint.delays)
+                if intents is not None and tick % PERIOD_TICKS == 0:
+                    endpoint.learn(intents.take(endpoint.sysid), now_lost)
                 endpoint.advance(exchange.heard_by(endpoint.sysid))
                 if tick % KNOWN_TICKS == 0:
-                    endpoint.know(exchange.reports(endpoint.sysid), exchange.complaints(endpoint.sysid))
+                    complaints = exchange.complaints(endpoint.sysid) + (intents.complaints() if intents else [])
+                    endpoint.know(exchange.reports(endpoint.sysid), complaints)
             except Exception as error:
                 crew.leave(endpoint, error)
         lost = now_lost

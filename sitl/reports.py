@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from sitl.avoidance.yielding import Yielding
 from sitl.formation.link_report import LinkReport
 
 
@@ -37,6 +38,7 @@ class Ended:
         links: what came of those to it.
         behind_s: wall time by which its clock has fallen behind at the most, in real time.
         edges: (tick, neighbour, whether its edge counted from then on), of each change.
+        yieldings: who was given way to.
     """
 
     sysid: int
@@ -44,15 +46,18 @@ class Ended:
     links: tuple[LinkReport, ...] = ()
     behind_s: float = 0.0
     edges: tuple[tuple[int, int, bool], ...] = ()
+    yieldings: tuple[Yielding, ...] = ()
 
 
 @dataclass(frozen=True)
 class Failed:
-    """Last report of a vehicle that cannot go on, and why; with its edges as in `Ended`, if it fails as scheduled."""
+    """Last report of a vehicle that cannot go on, and why; with edges and yieldings as in `Ended`, if it fails as
+    scheduled."""
 
     sysid: int
     reason: str
     edges: tuple[tuple[int, int, bool], ...] = ()
+    yieldings: tuple[Yielding, ...] = ()
 
 
 Report = Hatched | Ready | Ended | Failed | Died

@@ -247,6 +247,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             arm=options.arm,
             swarm_clock=formation.swarm_clock and options.arm == "full",
             real_time=options.real_time,
+            avoid_m=scenario.limits.separation_m if formation.avoidance else None,
         )
         for stand in everyone
     ]

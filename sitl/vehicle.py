@@ -9,6 +9,9 @@ from missions.errors import InputError
 from missions.fence import parse_fence
 from missions.mission import Mission, MissionItem
 from missions.plan_type import PlanType
+from sitl.avoidance.avoider import Heard
+from sitl.avoidance.intent import Intent
+from sitl.avoidance.yielding import Yielding
 from sitl.captain import Captain
 from sitl.config import VehicleConfig
 from sitl.events import WARNING, ItemReached, StatusText
@@ -19,6 +22,7 @@ from sitl.formation.correction import Correction
 from sitl.formation.link_report import LinkReport, mean_delay_s
 from sitl.homing import check_rally
 from sitl.landed_state import landed_state
+from sitl.lookout import Lookout
 from sitl.modes import Mode
 from sitl.parameters import Parameters, arduplane_parameters
 from sitl.pilot import Phase
@@ -59,6 +63,7 @@ class Vehicle:
         self._events: list[ItemReached | StatusText] = []
         self._captain = Captain(config, self.parameters, self._report)
         self._pilot = self._captain.pilot
+        self._lookout = Lookout(self._pilot, config, self._report)
         self._failsafes = Failsafes(self._captain, config, self.parameters)
         self._plans: dict[PlanType, tuple[MissionItem, ...]] = {PlanType.FENCE: (), PlanType.RALLY: ()}
         self._recall()
@@ -218,6 +223,10 @@ class Vehicle:
         """(tick, neighbour, whether its edge counted from then on), of each change so far."""
         return tuple(self._pilot.formation.edges)
 
+    def yieldings(self) -> tuple[Yielding, ...]:
+        """Who was given way to so far."""
+        return self._lookout.yieldings()
+
     def snapshot(self) -> Snapshot:
         """What there is to know at this tick."""
         captain, pilot, fence, flying = self._captain, self._pilot, self._failsafes.fence, self.airborne
@@ -280,9 +289,23 @@ class Vehicle:
             pilot.feel()
         elif self._captain.armed and pilot.phase is Phase.PARKED:
             self._captain.launch()
+        self._lookout.begin()
         own = pilot.observe()
         self._truth.write(pilot.flight.air, pilot.shifts)
         return own
+
+    def intent(self) -> Intent:
+        """What it intends as of this tick, for all others; after `observe`, where vehicles give way."""
+        return self._lookout.intent()
+
+    def learn(self, heard: Heard, lost: Set[int]) -> None:
+        """Take in what the others intend, and decide who is given way to from the next tick on.
+
+        Args:
+            heard: by vehicle, what has come of it.
+            lost: vehicles that are no more.
+        """
+        self._lookout.learn(heard, lost)
 
     def advance(self, heard: Mapping[int, Correction]) -> None:
         """End a tick: decide, move, and note what has been reached.

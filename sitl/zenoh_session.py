@@ -102,6 +102,11 @@ def correction_key(swarm: str, sysid: int) -> str:
     return f"skein/{swarm}/{sysid}/correction"
 
 
+def intent_key(swarm: str, sysid: int) -> str:
+    """Where a vehicle publishes its intents."""
+    return f"skein/{swarm}/{sysid}/intent"
+
+
 def alive_key(swarm: str, sysid: int | str) -> str:
     """The liveliness token of a vehicle; sysid "*" for all."""
     return f"skein/{swarm}/{sysid}/alive"

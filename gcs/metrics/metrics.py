@@ -1,5 +1,6 @@
 """Figures of merit of one flight: what metrics.json holds."""
 
+import itertools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
@@ -19,6 +20,7 @@ from gcs.metrics.series import Series
 from gcs.metrics.surroundings import Surroundings, airborne_row, surroundings
 from gcs.metrics.swarm_time import SwarmTime, swarm_time
 from gcs.metrics.tracks import flown_tracks
+from gcs.metrics.yielded import yielded
 from gcs.truth import H, Truths, trajectory_sha256
 from missions.scenario import Scenario
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
@@ -156,7 +158,7 @@ def measure(
         ),
         formation=_formation(series, around, late, record, time),
         timing=record.timing,
-        events=tuple(sorted((*record.events, *scheduled(scenario), *arrived), key=lambda event: event.t_s)),
+        events=_in_order(record.events, scheduled(scenario), yielded(record.yieldings), arrived),
         graph=graph_used(record.edges),
         links=record.links,
         limits=tuple(
@@ -210,6 +212,10 @@ def _formation(
         slowed_s=float(time.slowed_s[-1]) if time else None,
         hurried_s=float(time.hurried_s[-1]) if time else None,
     )
+
+
+def _in_order(*events: Iterable[Event]) -> tuple[Event, ...]:
+    return tuple(sorted(itertools.chain(*events), key=lambda event: event.t_s))
 
 
 def _rows(end: Arrival) -> int | None:

@@ -21,6 +21,7 @@ _REASONS = {
     "less_than_equal": "must be <= {le:g}",
     "float_type": "must be a number",
     "int_type": "must be a whole number",
+    "bool_type": "must be true or false",
     "finite_number": "must be a finite number",
     "string_type": "must be text",
     "string_pattern_mismatch": "must be letters, digits, - and _ only",

@@ -27,6 +27,8 @@ class FormationModel(Keys):
     """Whether the schedule slows down, or hurries, for all when one vehicle can go no faster, or slower."""
     stale_s: Positive = 2.0
     """A sample that is older than its delay and jitter by so much counts no more: the edge is dropped."""
+    avoidance: Annotated[bool, Field(strict=True)] = False
+    """Vehicles that will come nearer than `limits.separation_m` give way, beyond the plan."""
 
     def is_pinned(self, sysid: int) -> bool:
         """Whether h_p is 1."""

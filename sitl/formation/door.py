@@ -1,47 +1,66 @@
-"""The door: of all that comes over the network in a neighbour's name, only its samples, in order, are let in."""
+"""The door: of all that comes over the network in another vehicle's name, only its samples, in order, are let in."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Generic, Protocol, TypeVar
 
-from sitl.formation.correction import Correction, decode
+
+class Stamped(Protocol):
+    """A sample of one vehicle at one tick."""
+
+    @property
+    def sysid(self) -> int: ...
+
+    @property
+    def tick(self) -> int: ...
+
+    @property
+    def sequence(self) -> int: ...
 
 
-class Door:
-    """What is let in of one neighbour.
+Sample = TypeVar("Sample", bound=Stamped)
+
+
+class Door(Generic[Sample]):
+    """What is let in of one vehicle's samples.
 
     Args:
-        sysid: of the neighbour.
+        sysid: of the vehicle.
+        decode: the samples in a message, at least one; raises ValueError when it has none.
+        called: what they are, for people.
 
     Attributes:
         refused: messages that were not, by reason.
     """
 
-    def __init__(self, sysid: int) -> None:
+    def __init__(self, sysid: int, decode: Callable[[bytes], list[Sample]], called: str) -> None:
         self.refused: Counter[str] = Counter()
         self._sysid = sysid
-        self._last: Correction | None = None
+        self._decode = decode
+        self._called = called
+        self._last: Sample | None = None
         self._complaints: list[str] = []
 
-    def admit(self, payload: bytes, latest_tick: int) -> list[Correction]:
+    def admit(self, payload: bytes, latest_tick: int) -> list[Sample]:
         """The samples in a message; none when anything is wrong with it, which is counted.
 
         Args:
             latest_tick: no sample can be of a later one.
         """
         try:
-            samples = decode(payload)
+            samples = self._decode(payload)
             self._check(samples, latest_tick)
         except ValueError as error:
             reason = str(error)
             if not self.refused[reason]:
-                self._complaints.append(f"Corrections of {self._sysid} refused: {reason}")
+                self._complaints.append(f"{self._called} of {self._sysid} refused: {reason}")
             self.refused[reason] += 1
             return []
         self._last = samples[-1]
         return samples
 
     def reopen(self) -> None:
-        """The neighbour has come back, and may begin anew."""
+        """It has come back, and may begin anew."""
         self._last = None
 
     def complaints(self) -> list[str]:
@@ -49,7 +68,7 @@ class Door:
         found, self._complaints = self._complaints, []
         return found
 
-    def _check(self, samples: Sequence[Correction], latest_tick: int) -> None:
+    def _check(self, samples: Sequence[Sample], latest_tick: int) -> None:
         before = None
         for sample in samples:
             if sample.sysid != self._sysid:

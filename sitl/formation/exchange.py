@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import zenoh
 
-from sitl.formation.correction import Correction, encode
+from sitl.formation.correction import Correction, decode, encode
 from sitl.formation.door import Door
 from sitl.formation.link_report import LinkReport
 from sitl.zenoh_session import alive_key, correction_key, sysid_of
@@ -60,7 +60,7 @@ class Exchange:
         self._unheard: set[int] = set()
         self._own: dict[int, Correction] = {}
         self._unsent: dict[int, list[bytes]] = {sysid: [] for sysid in delays}
-        self._doors: dict[int, Door] = {}
+        self._doors: dict[int, Door[Correction]] = {}
         # Zenoh's threads only put into the inbox what is to be done; all of it is done in the caller's thread.
         self._inbox: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._publishers = {
@@ -95,7 +95,7 @@ class Exchange:
                 self.neighbours = tuple(sorted((*self.neighbours, neighbour)))
                 self._newest[neighbour] = -1
                 self._unheard.add(neighbour)
-                self._doors[neighbour] = Door(neighbour)
+                self._doors[neighbour] = Door(neighbour, decode, "Corrections")
                 self._session.declare_subscriber(
                     correction_key(self._swarm, neighbour),
                     zenoh.handlers.Callback(self._sample_putter(neighbour), indirect=False),

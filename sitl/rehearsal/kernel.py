@@ -11,6 +11,8 @@ import numpy.typing as npt
 from missions.reference.reference import ReferenceTables
 from sitl.aircraft.gusts import GustState
 from sitl.aircraft.point_mass import AirState, Controls
+from sitl.avoidance.course import Situation
+from sitl.avoidance.manoeuvre import FREE, aside, yielding_acceleration
 from sitl.flight import (
     Aircraft,
     Flight,
@@ -29,6 +31,7 @@ from sitl.formation.swarm_clock import Shift, Shifts, grown, neighbours_need, ow
 from sitl.guidance.loiter_law import Approach, Loiter, loiter_accelerations, on_approach, to_go_m
 from sitl.guidance.path_errors import PathPoint, path_errors
 from sitl.guidance.path_law import PLANNED_ROOM_M_S, speed_acceleration, speed_before_height
+from sitl.rehearsal.avoiding import Avoiding, begin, tell_and_learn, told_at
 from sitl.rehearsal.hearing import Hearing, epoch_at, hearing_of
 from sitl.rehearsal.record import Record
 from sitl.rehearsal.wiring import Wiring
@@ -92,6 +95,7 @@ def fly_swarm(
     law: Law,
     normals: FloatArray,
     draws: FloatArray,
+    avoiding: Avoiding,
     record: Record,
 ) -> int:
     """Fly until all have arrived or are gone, and a little longer, or the record is full.
@@ -99,6 +103,7 @@ def fly_swarm(
     Args:
         normals: (n, ticks, 5) draws for the gusts.
         draws: for the channels, of `draws_of`.
+        avoiding: whether and how vehicles give way.
         record: takes what comes to pass.
 
     Returns:
@@ -113,7 +118,7 @@ def fly_swarm(
         # The delay is the lookahead: a vehicle may run ahead of its neighbours by so much.
         end = min(start + wiring.lookahead_ticks, ticks)
         for p in range(len(routes.home_m)):
-            fly_one(p, start, end, routes, aircraft, wiring, law, normals, state, stage, hearing, record)
+            fly_one(p, start, end, routes, aircraft, wiring, law, normals, state, stage, hearing, avoiding, record)
         start = end
     return start
 
@@ -138,6 +143,7 @@ def fly_one(
     state: FloatArray,
     stage: FloatArray,
     hearing: Hearing,
+    avoiding: Avoiding,
     record: Record,
 ) -> None:
     """Fly vehicle p through ticks [start, end).
@@ -178,7 +184,9 @@ def fly_one(
             clock = schedule_clock(tick * TICK_S, Shifts(slowed, hurried))
             errors, point = path_errors(position, velocity, clock, flight.point, tables)
             flight = at_point(flight, point)
-            in_formation = not within(tick, freezes)
+            able = not within(tick, freezes)
+            manoeuvre = begin(p, tick, able, avoiding)
+            in_formation = able and manoeuvre.action == FREE
             record.in_formation[p, tick] = in_formation
             record.along_m[p, tick] = errors.along
             record.along_rate_m_s[p, tick] = errors.along_rate
@@ -212,8 +220,15 @@ def fly_one(
                         hurry = max(hurry, neighbours_need(hurried.sum_s, other[2], other[3], age_s))
                 hearing.trust[link] = trusted(trust, used)
                 record.used[link, tick] = used
-            if law.plain or not in_formation:
-                ahead = speed_acceleration(airspeed_at(point.s_m, tables.airspeeds), air.V)
+            airspeed = airspeed_at(point.s_m, tables.airspeeds)
+            if told_at(tick, avoiding):
+                end_s_m, follows = routes.end_s_m[p], not law.plain
+                here = Situation(position, errors, point, air.V, airspeed, clock, end_s_m, follows, tables)
+                tell_and_learn(p, tick, able, here, manoeuvre, aircraft.airframe, avoiding)
+            if manoeuvre.action != FREE:
+                ahead = yielding_acceleration(errors, manoeuvre, airspeed, air.V, not law.plain)
+            elif law.plain or not in_formation:
+                ahead = speed_acceleration(airspeed, air.V)
             else:
                 ahead = formation_acceleration(errors, corrections, gains)
             if law.swarm_clock:
@@ -221,6 +236,8 @@ def fly_one(
                     own_slow, own_hurry = own_needs(errors.along, air, flight.controls, aircraft.airframe)
                     slow, hurry = max(own_slow, slow), max(own_hurry, hurry)
                 slowed, hurried = grown(slowed, slow), grown(hurried, hurry)
+            if manoeuvre.raised_m > 0.0:
+                errors = aside(errors, manoeuvre)
             wanted = path_accelerations(errors, ahead, air.V, aircraft.airframe)
             flight = moved(flight, wanted, aircraft)
             if point.s_m >= routes.end_s_m[p]:

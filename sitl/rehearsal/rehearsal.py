@@ -9,12 +9,14 @@ import numpy.typing as npt
 from missions.compiled import compile_shared
 from missions.mission import Mission
 from sitl.aircraft.gusts import NORMALS_PER_TICK
+from sitl.avoidance.yielding import Yielding
 from sitl.config import VehicleConfig
 from sitl.flight import make_aircraft
 from sitl.formation.graph import EdgeChange
 from sitl.formation.network import Network
 from sitl.formation.swarm_clock import longest_s
 from sitl.noise import Stream, generator
+from sitl.rehearsal.intents import avoiding_of, yieldings_of
 from sitl.rehearsal.kernel import Law, fly_swarm
 from sitl.rehearsal.record import Record, empty_record
 from sitl.rehearsal.routes import routes_of
@@ -38,6 +40,7 @@ class Flown:
         along_rate_m_s: by sysid: (ticks,) e', how much faster than the schedule; NaN off the path.
         thrust_n: by sysid: (ticks,) that the engine gave.
         shifts: by sysid: (ticks, 2) seconds that its schedule had been slowed and hurried; empty without a swarm clock.
+        yieldings: by sysid, who was given way to.
     """
 
     truth: dict[int, FloatArray]
@@ -46,6 +49,7 @@ class Flown:
     along_rate_m_s: dict[int, FloatArray]
     thrust_n: dict[int, FloatArray]
     shifts: dict[int, FloatArray]
+    yieldings: dict[int, tuple[Yielding, ...]]
 
 
 def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission]) -> Flown:
@@ -72,7 +76,8 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
     draws = draws_of(first.network, first.seed, ticks)
     wiring = wiring_of(first.network)
     record = empty_record(n, len(wiring.sender), ticks)
-    flown = compile_shared(fly_swarm)(routes, aircraft, wiring, law, normals, draws, record)
+    avoiding = avoiding_of(first, ticks)
+    flown = compile_shared(fly_swarm)(routes, aircraft, wiring, law, normals, draws, avoiding, record)
     rows = {vehicle.sysid: (p, slice(min(flown, wiring.death[p]))) for p, vehicle in enumerate(vehicles)}
     return Flown(
         {sysid: record.truth[row] for sysid, row in rows.items()},
@@ -84,6 +89,7 @@ def rehearse(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission])
         {sysid: record.along_rate_m_s[row] for sysid, row in rows.items()},
         {sysid: record.thrust_n[row] for sysid, row in rows.items()},
         {sysid: record.shifts[row][:, ::2] for sysid, row in rows.items()} if first.swarm_clock else {},
+        {sysid: yieldings_of(avoiding, p, ticks, first.network) for sysid, (p, ticks) in rows.items()},
     )
 
 

@@ -57,23 +57,23 @@ def wiring_of(network: Network) -> Wiring:
     channels = [network.channel_of(sender, receiver) for sender, receiver in links]
     weights = [{sysid: network.weights(sysid, gone) for sysid in network.sysids} for _, gone in network.epochs]
     weight = np.array([[of[receiver].get(sender, 0.0) for sender, receiver in links] for of in weights])
-    silence, first_silence = _stacked(network.silences(sender, receiver) for sender, receiver in links)
-    freeze, first_freeze = _stacked(network.frozen(sysid) for sysid in network.sysids)
+    silence, first_silence = stacked(network.silences(sender, receiver) for sender, receiver in links)
+    freeze, first_freeze = stacked(network.frozen(sysid) for sysid in network.sysids)
     return Wiring(
         first_link=_firsts(len(network.neighbours(sysid)) for sysid in network.sysids),
-        sender=_integers(row[sender] for sender, _ in links),
-        delay_ticks=_integers(channel.delay_ticks for channel in channels),
-        jitter_ticks=_integers(channel.jitter_ticks for channel in channels),
+        sender=integers(row[sender] for sender, _ in links),
+        delay_ticks=integers(channel.delay_ticks for channel in channels),
+        jitter_ticks=integers(channel.jitter_ticks for channel in channels),
         chances=np.array([channel[2:] for channel in channels], dtype=np.float64).reshape(-1, 4),
         certain=np.array([channel.certain for channel in channels], dtype=np.bool_),
         trust=(weight[0] > 0.0).astype(np.float64),
-        epoch=_integers(start for start, _ in network.epochs),
+        epoch=integers(start for start, _ in network.epochs),
         weight=weight,
         silence=silence,
         first_silence=first_silence,
         freeze=freeze,
         first_freeze=first_freeze,
-        death=_integers(network.deaths.get(sysid, FOR_EVER) for sysid in network.sysids),
+        death=integers(network.deaths.get(sysid, FOR_EVER) for sysid in network.sysids),
         stale_ticks=network.stale_ticks,
         lookahead_ticks=network.lookahead_ticks,
     )
@@ -96,7 +96,8 @@ def draws_of(network: Network, seed: int, ticks: int) -> FloatArray:
     return draws
 
 
-def _integers(values: Iterable[int]) -> IntArray:
+def integers(values: Iterable[int]) -> IntArray:
+    """A column of a table."""
     return np.array(list(values), dtype=np.int64)
 
 
@@ -104,7 +105,8 @@ def _firsts(counts: Iterable[int]) -> IntArray:
     return np.concatenate([[0], np.cumsum(list(counts))]).astype(np.int64)
 
 
-def _stacked(intervals: Iterable[Sequence[Interval]]) -> tuple[IntArray, IntArray]:
+def stacked(intervals: Iterable[Sequence[Interval]]) -> tuple[IntArray, IntArray]:
+    """Lists of intervals one below the other, (m, 2), and at which row each begins, with the end of the last."""
     lists = list(intervals)
     flat = [pair for pairs in lists for pair in pairs]
     return np.array(flat, dtype=np.int64).reshape(-1, 2), _firsts(len(pairs) for pairs in lists)

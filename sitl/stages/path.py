@@ -80,6 +80,11 @@ class PathStage:
     def _corner(self) -> int:
         return min(self._next_corner, len(self._corner_s_m) - 1)
 
+    @property
+    def end_s_m(self) -> float:
+        """Arc length of its last corner."""
+        return self._corner_s_m[-1]
+
     def airspeed_m_s(self, s_m: float) -> float:
         """The commanded airspeed at an arc length."""
         return airspeed_at(s_m, self.tables.airspeeds)

@@ -15,6 +15,10 @@ import sitl.aircraft.actuators
 import sitl.aircraft.gusts
 import sitl.aircraft.linearisation
 import sitl.aircraft.point_mass
+import sitl.avoidance.course
+import sitl.avoidance.manoeuvre
+import sitl.avoidance.nearest
+import sitl.avoidance.rule
 import sitl.flight
 import sitl.formation.law
 import sitl.guidance.loiter_law
@@ -37,6 +41,21 @@ SHARED: dict[ModuleType, tuple[str, ...]] = {
     sitl.aircraft.gusts: ("start_gusts", "step_gusts", "wind_at"),
     sitl.aircraft.linearisation: ("controls_for",),
     sitl.aircraft.point_mass: ("point_mass_rates", "rk4_step", "air_velocity", "with_air_velocity"),
+    sitl.avoidance.course: ("lead_in", "raised_in", "predict", "scheduled_at"),
+    sitl.avoidance.manoeuvre: (
+        "going_on",
+        "aside",
+        "yielding_acceleration",
+        "drift_of",
+        "surplus_of",
+        "pace_alone",
+        "return_speed",
+        "means",
+        "climb_left",
+        "pace_of",
+    ),
+    sitl.avoidance.nearest: ("least_distance",),
+    sitl.avoidance.rule: ("has_right_of_way", "nearest", "decide"),
     sitl.flight: (
         "launched",
         "launched_along",

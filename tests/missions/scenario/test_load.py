@@ -43,6 +43,7 @@ def test_five_scenarios_ship() -> None:
         ("target = [33000.0", "target = [93000.0", "vehicles[0].target: (93000, 24500, 3300) lies outside the area"),
         ("radius_m = 1500.0", "radious_m = 1500.0", "radars[0].radious_m: unknown key; did you mean radius_m?"),
         ("delay_s = 0.2", "delay_s = 1e9", "formation.delay_s: must be <= 60"),
+        ("k0 = 0.01", "k0 = 0.01\navoidance = 1", "formation.avoidance: must be true or false, got 1"),
         ("k0 = 0.01", "k0 = 0.01\npinned = [1.5]", "formation.pinned[0]: must be a whole number, got 1.5"),
         ("seed = 1", "seed = 1.5", "seed: must be a whole number, got 1.5"),
     ],

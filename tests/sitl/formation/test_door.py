@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sitl.formation.correction import Correction, encode
+from sitl.formation.correction import Correction, decode, encode
 from sitl.formation.door import Door
 
 NEIGHBOUR, LAST, LATEST = 2, 100, 1000
@@ -38,7 +38,7 @@ REFUSED = {
 @pytest.fixture
 def door() -> Door:
     """One that has let in a sample of tick LAST."""
-    door = Door(NEIGHBOUR)
+    door = Door(NEIGHBOUR, decode, "Corrections")
     assert door.admit(encode(sample(LAST)), LATEST) == [sample(LAST)]
     return door
 
@@ -55,7 +55,7 @@ def test_each_kind_of_nonsense_is_refused_counted_and_told_once(door: Door, reas
 
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=20), st.data())
 def test_samples_in_order_are_all_let_in_however_they_share_messages(steps: list[int], data: st.DataObject) -> None:
-    door, tick, sent, got = Door(NEIGHBOUR), 0, [], []
+    door, tick, sent, got = Door(NEIGHBOUR, decode, "Corrections"), 0, [], []
     while steps:
         count = data.draw(st.integers(1, len(steps)))
         batch = []
@@ -70,7 +70,7 @@ def test_samples_in_order_are_all_let_in_however_they_share_messages(steps: list
 
 
 def test_the_newest_may_come_twice() -> None:
-    door = Door(NEIGHBOUR)
+    door = Door(NEIGHBOUR, decode, "Corrections")
     assert door.admit(encode(sample(5)), LATEST) == door.admit(encode(sample(5)), LATEST) == [sample(5)]
 
 
