@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 
 import zenoh
 
-from sitl.formation.correction import Correction, encode
+from sitl.formation.correction import Correction, decode, encode
 from sitl.formation.door import Door
 from sitl.zenoh_session import alive_key, correction_key, sysid_of
 
@@ -24,7 +24,7 @@ class Neighbourhood:
     """
 
     def __init__(self, session: zenoh.Session, swarm: str, slot: int, neighbours: Iterable[int]) -> None:
-        self._doors = {other: Door(other) for other in neighbours}
+        self._doors = {other: Door(other, decode, "Corrections") for other in neighbours}
         self._newest: dict[int, Correction] = {}
         self._swarm = swarm
         self._lock = threading.Lock()

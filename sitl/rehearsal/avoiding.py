@@ -11,7 +11,7 @@ import numpy.typing as npt
 from missions.airframe import Airframe
 from sitl.avoidance.course import Situation, predict
 from sitl.avoidance.intent import GROUNDED, PERIOD_TICKS, POINTS, QUIET, YIELDS
-from sitl.avoidance.manoeuvre import AS_PLANNED, FREE, Manoeuvre, going_on, pace_alone, pace_of
+from sitl.avoidance.manoeuvre import FREE, Manoeuvre, going_on, pace_alone, pace_of
 from sitl.avoidance.rule import NEVER, Known, decide
 from sitl.formation.channel import LOST, Channel, carried
 from sitl.formation.failures import within
@@ -23,10 +23,10 @@ MANOEUVRE_FIELDS = 7
 
 
 class Avoiding(NamedTuple):
-    """What n vehicles tell, hear and do at k periods; nothing where they do not give way.
+    """What n vehicles tell, hear and do at k periods.
 
     Attributes:
-        separation_m: the safe distance; 0 where vehicles do not give way.
+        separation_m: the safe distance.
         heard: (n, n, k) of each receiver and sender, the period of the newest intent heard by a period; -1 for none.
         status, alone, places, points: (n, k), (n, k), (n, k), (n, k, POINTS, 3) of each intent; and how many points
             there are.
@@ -104,8 +104,6 @@ def let_intents_through(
 
 def begin(p: int, tick: int, able: bool, avoiding: Avoiding) -> Manoeuvre:
     """The manoeuvre of a vehicle at a tick."""
-    if avoiding.separation_m == 0.0:
-        return AS_PLANNED
     row = avoiding.manoeuvre[p]
     manoeuvre = Manoeuvre(FREE, 0.0, 0.0, 0.0, 0.0, 0.0, -1)
     if able:
@@ -116,15 +114,12 @@ def begin(p: int, tick: int, able: bool, avoiding: Avoiding) -> Manoeuvre:
     return manoeuvre
 
 
-def told_at(tick: int, avoiding: Avoiding) -> bool:
-    """Whether intents are told at a tick."""
-    return avoiding.separation_m > 0.0 and tick % PERIOD_TICKS == 0
-
-
 def tell_and_learn(
     p: int, tick: int, able: bool, now: Situation, manoeuvre: Manoeuvre, airframe: Airframe, avoiding: Avoiding
 ) -> None:
-    """Tell what vehicle p on its path intends, and decide what it does from the next tick on."""
+    """Where intents are due, tell what vehicle p on its path intends, and decide what it does from the next tick on."""
+    if tick % PERIOD_TICKS != 0:
+        return
     k = tick // PERIOD_TICKS
     separation_m, known = avoiding.separation_m, avoiding.known
     avoiding.status[p, k] = YIELDS if able else QUIET
@@ -149,11 +144,6 @@ def keep_manoeuvre(manoeuvre: Manoeuvre, row: FloatArray) -> None:
     row[0], row[1], row[2] = manoeuvre.action, manoeuvre.speed_m_s, manoeuvre.climb_m_s
     row[3], row[4], row[5] = manoeuvre.raised_m, manoeuvre.drift_m_s, manoeuvre.surplus_m_s
     row[6] = manoeuvre.other
-
-
-def no_avoiding() -> Avoiding:
-    """Of vehicles that do not give way."""
-    return empty_avoiding(0.0, 0, 0)
 
 
 def empty_avoiding(separation_m: float, vehicles: int, ticks: int) -> Avoiding:

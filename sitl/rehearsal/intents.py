@@ -12,16 +12,16 @@ from sitl.formation.channel import DRAWS
 from sitl.formation.failures import FOR_EVER
 from sitl.formation.network import Network
 from sitl.noise import Stream, link_generator
-from sitl.rehearsal.avoiding import Avoiding, IntentWiring, empty_avoiding, let_intents_through, no_avoiding
+from sitl.rehearsal.avoiding import Avoiding, IntentWiring, empty_avoiding, let_intents_through
 from sitl.rehearsal.wiring import integers, stacked
 
 Link = tuple[int, int]
 
 
-def avoiding_of(vehicle: VehicleConfig, ticks: int) -> Avoiding:
-    """As a flight of so many ticks begins, of a swarm that this vehicle is one of."""
+def avoiding_of(vehicle: VehicleConfig, ticks: int) -> Avoiding | None:
+    """As a flight of so many ticks begins, of a swarm that this vehicle is one of; None where nobody gives way."""
     if vehicle.avoid_m is None:
-        return no_avoiding()
+        return None
     network = vehicle.network
     avoiding = empty_avoiding(vehicle.avoid_m, len(network.sysids), ticks)
     freeze, first_freeze = stacked(network.frozen(sysid) for sysid in network.sysids)
@@ -31,9 +31,9 @@ def avoiding_of(vehicle: VehicleConfig, ticks: int) -> Avoiding:
     return avoiding
 
 
-def yieldings_of(avoiding: Avoiding, row: int, ticks: slice, network: Network) -> tuple[Yielding, ...]:
+def yieldings_of(avoiding: Avoiding | None, row: int, ticks: slice, network: Network) -> tuple[Yielding, ...]:
     """Who a vehicle has given way to, as its endpoint tells it."""
-    if avoiding.separation_m == 0.0:
+    if avoiding is None:
         return ()
     others = avoiding.other[row, ticks]
     found = []

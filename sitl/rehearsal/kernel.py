@@ -12,7 +12,7 @@ from missions.reference.reference import ReferenceTables
 from sitl.aircraft.gusts import GustState
 from sitl.aircraft.point_mass import AirState, Controls
 from sitl.avoidance.course import Situation
-from sitl.avoidance.manoeuvre import FREE, aside, yielding_acceleration
+from sitl.avoidance.manoeuvre import AS_PLANNED, FREE, aside, yielding_acceleration
 from sitl.flight import (
     Aircraft,
     Flight,
@@ -31,7 +31,7 @@ from sitl.formation.swarm_clock import Shift, Shifts, grown, neighbours_need, ow
 from sitl.guidance.loiter_law import Approach, Loiter, loiter_accelerations, on_approach, to_go_m
 from sitl.guidance.path_errors import PathPoint, path_errors
 from sitl.guidance.path_law import PLANNED_ROOM_M_S, speed_acceleration, speed_before_height
-from sitl.rehearsal.avoiding import Avoiding, begin, tell_and_learn, told_at
+from sitl.rehearsal.avoiding import Avoiding, begin, tell_and_learn
 from sitl.rehearsal.hearing import Hearing, epoch_at, hearing_of
 from sitl.rehearsal.record import Record
 from sitl.rehearsal.wiring import Wiring
@@ -95,7 +95,7 @@ def fly_swarm(
     law: Law,
     normals: FloatArray,
     draws: FloatArray,
-    avoiding: Avoiding,
+    avoiding: Avoiding | None,
     record: Record,
 ) -> int:
     """Fly until all have arrived or are gone, and a little longer, or the record is full.
@@ -103,7 +103,7 @@ def fly_swarm(
     Args:
         normals: (n, ticks, 5) draws for the gusts.
         draws: for the channels, of `draws_of`.
-        avoiding: whether and how vehicles give way.
+        avoiding: how vehicles give way; None, and they do not: that much less is compiled.
         record: takes what comes to pass.
 
     Returns:
@@ -143,7 +143,7 @@ def fly_one(
     state: FloatArray,
     stage: FloatArray,
     hearing: Hearing,
-    avoiding: Avoiding,
+    avoiding: Avoiding | None,
     record: Record,
 ) -> None:
     """Fly vehicle p through ticks [start, end).
@@ -185,7 +185,9 @@ def fly_one(
             errors, point = path_errors(position, velocity, clock, flight.point, tables)
             flight = at_point(flight, point)
             able = not within(tick, freezes)
-            manoeuvre = begin(p, tick, able, avoiding)
+            manoeuvre = AS_PLANNED
+            if avoiding is not None:
+                manoeuvre = begin(p, tick, able, avoiding)
             in_formation = able and manoeuvre.action == FREE
             record.in_formation[p, tick] = in_formation
             record.along_m[p, tick] = errors.along
@@ -221,7 +223,7 @@ def fly_one(
                 hearing.trust[link] = trusted(trust, used)
                 record.used[link, tick] = used
             airspeed = airspeed_at(point.s_m, tables.airspeeds)
-            if told_at(tick, avoiding):
+            if avoiding is not None:
                 end_s_m, follows = routes.end_s_m[p], not law.plain
                 here = Situation(position, errors, point, air.V, airspeed, clock, end_s_m, follows, tables)
                 tell_and_learn(p, tick, able, here, manoeuvre, aircraft.airframe, avoiding)
