@@ -41,5 +41,13 @@ class Frame(IntEnum):
     GLOBAL_TERRAIN_ALT_INT = 11
 
 
+LOCAL_FRAMES = frozenset({1, 4, 7, 8, 9, *range(12, 22)})
+"""MAV_FRAME numbers in which a position is metres from some place near the vehicle."""
+LAST_FRAME = 21
+"""MAV_FRAME_LOCAL_FLU."""
+
+LAST_NAV = 95
+"""MAV_CMD_NAV_LAST: commands up to it are ways to fly, most of them to a place."""
+
 NAVIGATION = frozenset({Command.NAV_WAYPOINT, Command.NAV_LOITER_UNLIM})
 """Commands whose item is a point that the path goes through."""

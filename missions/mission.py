@@ -5,7 +5,7 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from missions.commands import Frame
+from missions.commands import LOCAL_FRAMES, Frame
 
 
 def as_float32(value: float) -> float:
@@ -71,13 +71,13 @@ class MissionItem:
 
     @property
     def lat_deg(self) -> float:
-        """Latitude in degrees."""
-        return self.lat_e7 / 1e7
+        """Latitude in degrees; in a frame that is not global, param5 as files have it (metres, or a plain number)."""
+        return self.lat_e7 / position_scale(self.frame)
 
     @property
     def lon_deg(self) -> float:
-        """Longitude in degrees."""
-        return self.lon_e7 / 1e7
+        """Longitude in degrees; in a frame that is not global, param6 as files have it."""
+        return self.lon_e7 / position_scale(self.frame)
 
 
 @dataclass(frozen=True)
@@ -103,6 +103,13 @@ class Mission:
     def with_home(self, home: MissionItem) -> "Mission":
         """The same mission with item 0 replaced, as ArduPlane does on receipt."""
         return replace(self, items=(home, *self.items[1:]))
+
+
+def position_scale(frame: int) -> float:
+    """What param5 and param6 are multiplied by for the x and y of MISSION_ITEM_INT."""
+    if frame == Frame.MISSION:
+        return 1.0
+    return 1e4 if frame in LOCAL_FRAMES else 1e7
 
 
 def degrees_to_e7(angle_deg: float) -> int:

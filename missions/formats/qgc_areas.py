@@ -45,36 +45,77 @@ def rally_section(rally: Sequence[MissionItem]) -> dict[str, Any]:
 
 
 def read_fence_section(reader: JsonReader, section: Any) -> Fence:
-    """The fence in a section `geoFence`; one without areas fences nothing. Raises InputError."""
-    table = reader.table(section, "geoFence")
+    """The fence in a section `geoFence`; one without areas fences nothing.
+
+    Version 1 has a single polygon, which is an area to stay in.
+
+    Raises:
+        InputError: what cannot be read, by its place.
+    """
+    table = reader.table(section, "geoFence", {"version", "polygons", "circles", "polygon", "breachReturn"})
+    old = _version(reader, table, "geoFence") == 1
     areas: tuple[FencePolygon | FenceCircle, ...] = (*_polygons(reader, table), *_circles(reader, table))
+    if table.get("polygon"):
+        if not old or areas:
+            raise reader.error("geoFence.polygon", "belongs in version 1; in version 2 write polygons")
+        areas = (FencePolygon(True, _corners(reader, table["polygon"], "geoFence.polygon")),)
+        reader.note("geoFence", "version 1: its polygon was read as an area to stay in")
     if table.get("breachReturn") is None:
         return Fence(areas)
-    latitude, longitude, _ = reader.numbers(table["breachReturn"], "geoFence.breachReturn", 3)
-    return Fence(areas, reader.place_e7([latitude, longitude], "geoFence.breachReturn"))
+    values = reader.array(table["breachReturn"], "geoFence.breachReturn")
+    place = reader.numbers(values, "geoFence.breachReturn", 2 if len(values) == 2 else 3)
+    return Fence(areas, reader.place_e7(place[:2], "geoFence.breachReturn"))
+
+
+def _version(reader: JsonReader, table: dict[str, Any], key: str) -> int:
+    """1 or 2; files without one are as the present ones."""
+    version = reader.whole(table.get("version", _VERSION), f"{key}.version")
+    if version not in (1, _VERSION):
+        raise reader.error(f"{key}.version", f"must be 1 or {_VERSION}, got {version}")
+    return version
 
 
 def _polygons(reader: JsonReader, section: dict[str, Any]) -> Iterator[FencePolygon]:
     for index, entry in enumerate(reader.array(section.get("polygons", []), "geoFence.polygons")):
         key = f"geoFence.polygons[{index}]"
-        table = reader.table(entry, key)
-        corners = reader.array(table.get("polygon"), f"{key}.polygon")
-        if len(corners) < LEAST_VERTICES:
-            raise reader.error(f"{key}.polygon", f"must have at least {LEAST_VERTICES} corners, got {len(corners)}")
-        vertices = tuple(reader.place_e7(corner, f"{key}.polygon[{n}]") for n, corner in enumerate(corners))
+        table = _area(reader, entry, key, "polygon")
+        vertices = _corners(reader, table.get("polygon"), f"{key}.polygon")
         yield FencePolygon(_inclusion(reader, table, key), vertices)
+
+
+def _corners(reader: JsonReader, value: Any, key: str) -> tuple[LatLonE7, ...]:
+    corners = reader.array(value, key)
+    if len(corners) < LEAST_VERTICES:
+        raise reader.error(key, f"must have at least {LEAST_VERTICES} corners, got {len(corners)}")
+    return tuple(_fence_place(reader, corner, f"{key}[{n}]") for n, corner in enumerate(corners))
 
 
 def _circles(reader: JsonReader, section: dict[str, Any]) -> Iterator[FenceCircle]:
     for index, entry in enumerate(reader.array(section.get("circles", []), "geoFence.circles")):
         key = f"geoFence.circles[{index}]"
-        table = reader.table(entry, key)
-        circle = reader.table(table.get("circle"), f"{key}.circle")
+        table = _area(reader, entry, key, "circle")
+        circle = reader.table(table.get("circle"), f"{key}.circle", {"center", "radius"})
         radius_m = reader.finite(circle.get("radius"), f"{key}.circle.radius")
         if radius_m <= 0.0:
             raise reader.error(f"{key}.circle.radius", f"must be > 0, got {radius_m:g}")
-        center = reader.place_e7(circle.get("center"), f"{key}.circle.center")
+        center = _fence_place(reader, circle.get("center"), f"{key}.circle.center")
         yield FenceCircle(_inclusion(reader, table, key), center, radius_m)
+
+
+def _area(reader: JsonReader, entry: Any, key: str, shape: str) -> dict[str, Any]:
+    table = reader.table(entry, key, {"version", "inclusion", shape})
+    if (version := table.get("version", _AREA_VERSION)) != _AREA_VERSION:
+        raise reader.error(f"{key}.version", f"must be {_AREA_VERSION}, got {version!r}")
+    if table.get("altitudeBandEnabled"):
+        raise reader.error(f"{key}.altitudeBandEnabled", "an area between two altitudes cannot be read; make it of all")
+    return table
+
+
+def _fence_place(reader: JsonReader, value: Any, key: str) -> LatLonE7:
+    """A corner or a centre; null, which items may have, is none."""
+    for index, number in enumerate(reader.numbers(value, key, 2)):
+        reader.finite(None if number != number else number, f"{key}[{index}]")
+    return reader.place_e7(value, key)
 
 
 def _inclusion(reader: JsonReader, table: dict[str, Any], key: str) -> bool:
@@ -86,12 +127,13 @@ def _inclusion(reader: JsonReader, table: dict[str, Any], key: str) -> bool:
 
 def read_rally_section(reader: JsonReader, section: Any) -> tuple[MissionItem, ...]:
     """The rally points in a section `rallyPoints`. Raises InputError."""
-    table = reader.table(section, "rallyPoints")
+    table = reader.table(section, "rallyPoints", {"version", "points"})
+    _version(reader, table, "rallyPoints")
     points = []
     for index, entry in enumerate(reader.array(table.get("points", []), "rallyPoints.points")):
         key = f"rallyPoints.points[{index}]"
         latitude, longitude, altitude_m = reader.numbers(entry, key, 3)
-        points.append((*reader.place_e7([latitude, longitude], key), reader.finite(altitude_m, f"{key}[2]")))
+        points.append((*_fence_place(reader, [latitude, longitude], key), reader.finite(altitude_m, f"{key}[2]")))
     return rally_items(points)
 
 

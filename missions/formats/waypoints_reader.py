@@ -1,66 +1,121 @@
-"""`.waypoints` files read."""
+"""`.waypoints` files read: QGC WPL 110 and 120, as QGroundControl, Mission Planner, MAVProxy and scripts write them."""
 
-import math
+import re
+from dataclasses import replace
 from pathlib import Path
 
+from missions.commands import LAST_FRAME, Command
 from missions.errors import InputError
 from missions.formats.files import read_text
-from missions.formats.waypoints import HEADER
-from missions.mission import Mission, MissionItem, degrees_to_e7
+from missions.formats.wire import param_on_wire, position_on_wire
+from missions.mission import Mission, MissionItem
 
 _COLUMNS = (
     *("index", "current", "frame", "command", "param1", "param2", "param3", "param4"),
     *("latitude", "longitude", "altitude", "autocontinue"),
 )
-_WHOLE = frozenset({"index", "current", "frame", "command", "autocontinue"})
-_LARGEST_E7 = 2**31 - 1
+_LARGEST = {"index": 0xFFFF, "current": 1, "frame": LAST_FRAME, "command": 0xFFFF, "autocontinue": 1}
+"""Of the columns with whole numbers."""
+_HEADER = re.compile(r"QGC\s+WPL\s+(.+)")
+_WITH_HOME, _WITHOUT_HOME = "110", "120"
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?nan", re.ASCII | re.IGNORECASE)
 
 
-def read_waypoints(path: Path) -> Mission:
-    """Read a mission whose row 0 is home. Raises InputError naming the line and the column."""
+def read_waypoints(path: Path, *, home: MissionItem | None = None) -> Mission:
+    """Read a mission. Row 0 of version 110 is home; version 120 has none.
+
+    White space or commas separate columns; lines that begin with # are comments.
+
+    Args:
+        path: the file.
+        home: item 0; the file's own unless given.
+
+    Raises:
+        InputError: what cannot be read, by line and column.
+    """
     lines = read_text(path).splitlines()
     header = lines[0].strip() if lines else ""
-    if header != HEADER:
+    found = _HEADER.fullmatch(header)
+    if found is None or found[1] not in (_WITH_HOME, _WITHOUT_HOME):
         raise InputError(
-            f"{path}: line 1: must be {HEADER!r}, got {header!r}; export it as {HEADER}, with home as row 0"
+            f"{path}: line 1: must be 'QGC WPL 110', got {header[:40]!r}; export it as QGC WPL 110, with home as row 0"
         )
-    rows = [(number, line) for number, line in enumerate(lines[1:], 2) if line.strip()]
-    if not rows:
-        raise InputError(f"{path}: no row 0; add the home position")
-    return Mission(tuple(_read_row(line, seq, f"{path}: line {number}") for seq, (number, line) in enumerate(rows)))
+    rows = [
+        (f"{path}: line {number}", line)
+        for number, line in enumerate(lines[1:], 2)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    first = 0
+    items: list[MissionItem] = []
+    for where, line in rows:
+        values = _values(line, where)
+        if not items and values["index"] == 1:
+            first = 1
+        if values["index"] != first + len(items):
+            raise InputError(
+                f"{where}: index: must be {first + len(items)}, got {values['index']:g}; number the rows one by one"
+            )
+        items.append(_item(values, where))
+    if found[1] == _WITH_HOME and first == 0:
+        if not items:
+            raise InputError(f"{path}: no row 0; add the home position")
+        return Mission(tuple(items) if home is None else (home, *items[1:]))
+    if home is None:
+        what = "QGC WPL 120 has no home" if found[1] == _WITHOUT_HOME else "row 0, home, is missing"
+        raise InputError(f"{path}: {what}; say where home is with --home LAT,LON,ALT")
+    return Mission((home, *(_after_home(item, first) for item in items)))
 
 
-def _read_row(line: str, seq: int, where: str) -> MissionItem:
-    texts = line.rstrip("\r\n").split("\t")
+def _after_home(item: MissionItem, first: int) -> MissionItem:
+    """Jumps count rows from the first one; here home comes before it."""
+    return replace(item, param1=item.param1 + 1.0 - first) if item.command == Command.DO_JUMP else item
+
+
+def _values(line: str, where: str) -> dict[str, float]:
+    """The columns of a row; whole numbers where those must be."""
+    texts = line.split(",") if line.count(",") == len(_COLUMNS) - 1 else line.split()
     if len(texts) != len(_COLUMNS):
         raise InputError(f"{where}: must have {len(_COLUMNS)} tab-separated columns, got {len(texts)}")
-    values = {name: _number(name, text.strip(), where) for name, text in zip(_COLUMNS, texts, strict=True)}
-    if values["index"] != seq:
-        raise InputError(f"{where}: index: must be {seq}, got {values['index']:g}; number the rows from 0")
+    return {name: _number(name, text.strip(), where) for name, text in zip(_COLUMNS, texts, strict=True)}
+
+
+def _number(name: str, text: str, where: str) -> float:
+    value = float(text) if _NUMBER.fullmatch(text) else None
+    largest = _LARGEST.get(name)
+    if largest is None:
+        if value is None:
+            raise InputError(f"{where}: {name}: must be a number, got {text[:40]!r}")
+        return value
+    if value is None or not value.is_integer():
+        raise InputError(f"{where}: {name}: must be a whole number, got {text[:40]!r}")
+    if not 0 <= value <= largest:
+        raise InputError(f"{where}: {name}: must be 0 to {largest}, got {text[:40]!r}")
+    return value
+
+
+def _item(values: dict[str, float], where: str) -> MissionItem:
+    frame = int(values["frame"])
+    latitude, longitude = (_position(name, values[name], frame, where) for name in ("latitude", "longitude"))
     return MissionItem(
-        command=int(values["command"]),
-        frame=int(values["frame"]),
-        param1=values["param1"],
-        param2=values["param2"],
-        param3=values["param3"],
-        param4=values["param4"],
-        lat_e7=_e7("latitude", values, where),
-        lon_e7=_e7("longitude", values, where),
-        alt_m=values["altitude"],
+        int(values["command"]),
+        frame,
+        *(_param(name, values[name], where) for name in ("param1", "param2", "param3", "param4")),
+        lat_e7=latitude,
+        lon_e7=longitude,
+        alt_m=_param("altitude", values["altitude"], where),
         autocontinue=bool(values["autocontinue"]),
     )
 
 
-def _number(name: str, text: str, where: str) -> float:
+def _position(name: str, value: float, frame: int, where: str) -> int:
     try:
-        return float(int(text)) if name in _WHOLE else float(text)
-    except ValueError:
-        kind = "a whole number" if name in _WHOLE else "a number"
-        raise InputError(f"{where}: {name}: must be {kind}, got {text!r}") from None
+        return position_on_wire(value, frame)
+    except ValueError as error:
+        raise InputError(f"{where}: {name}: {error}") from None
 
 
-def _e7(name: str, values: dict[str, float], where: str) -> int:
-    degrees = values[name]
-    if not (math.isfinite(degrees) and abs(degrees_to_e7(degrees)) <= _LARGEST_E7):
-        raise InputError(f"{where}: {name}: must be degrees, got {degrees:g}")
-    return degrees_to_e7(degrees)
+def _param(name: str, value: float, where: str) -> float:
+    try:
+        return param_on_wire(value)
+    except ValueError as error:
+        raise InputError(f"{where}: {name}: {error}") from None

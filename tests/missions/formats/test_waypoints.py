@@ -66,9 +66,9 @@ HOME_ROW = "0\t1\t0\t16\t0\t0\t0\t0\t46.5\t11.3\t1200\t1\n"
     ("text", "reason"),
     [
         ("", "line 1: must be 'QGC WPL 110'"),
-        ("QGC WPL 120\n" + HOME_ROW, "line 1: must be 'QGC WPL 110', got 'QGC WPL 120'"),
+        ("QGC WPL 100\n" + HOME_ROW, "line 1: must be 'QGC WPL 110', got 'QGC WPL 100'"),
         ("QGC WPL 110\n", "no row 0"),
-        ("QGC WPL 110\n0 1 0 16 0 0 0 0 1 2 3 1\n", "line 2: must have 12 tab-separated columns, got 1"),
+        ("QGC WPL 110\n0 1 0 16 0 0 0 0 1 2 3\n", "line 2: must have 12 tab-separated columns, got 11"),
         ("QGC WPL 110\n" + HOME_ROW + "\n" + HOME_ROW, "line 4: index: must be 1, got 0"),
         ("QGC WPL 110\n" + HOME_ROW.replace("46.5", "x"), "line 2: latitude: must be a number, got 'x'"),
         ("QGC WPL 110\n" + HOME_ROW.replace("46.5", "nan"), "line 2: latitude: must be degrees, got nan"),
