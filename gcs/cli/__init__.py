@@ -9,6 +9,7 @@ from gcs.cli.demo import demo
 from gcs.cli.download import download
 from gcs.cli.export import export
 from gcs.cli.fly import fly
+from gcs.cli.import_files import import_files
 from gcs.cli.margin import margin
 from gcs.cli.orders import abort, arm, disarm, mode, rtl
 from gcs.cli.params import params
@@ -35,6 +36,7 @@ ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, export, replay, bench
 WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status, companion)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)
+app.command("import")(import_files)
 app.add_typer(params)
 app.add_typer(signing)
 app.add_typer(study)

@@ -77,16 +77,16 @@ def _plans_of_run(folder: Path, sysids: Sequence[int] | None) -> "dict[int, Plan
 
 
 def _plan_of_file(path: Path) -> "Plan":
+    from gcs.cli import output
     from missions.errors import InputError
-    from missions.formats.qgc_plan_reader import read_plan
-    from missions.formats.waypoints_reader import read_waypoints
-    from missions.vehicle_plan import Plan
+    from missions.formats.mission_file import read_mission_file
 
-    if path.suffix == ".plan":
-        return read_plan(path)
-    if path.suffix == ".waypoints":
-        return Plan(read_waypoints(path))
-    raise InputError(f"{path}: neither a run's folder nor a .plan or .waypoints file")
+    if not path.exists():
+        raise InputError(f"{path}: neither a run's folder nor a .plan or .waypoints file")
+    found = read_mission_file(path)
+    for note in found.notes:
+        output.progress.print(f"{path}: {note}", soft_wrap=True, markup=False)
+    return found.plan
 
 
 def _words(counts: dict[str, int]) -> str:
