@@ -3,6 +3,7 @@
 import typer
 
 from gcs.cli.bench import bench
+from gcs.cli.check import check
 from gcs.cli.clear import clear
 from gcs.cli.companion import companion
 from gcs.cli.demo import demo
@@ -32,7 +33,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, export, replay, bench, margin, reproduce)
+ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, export, check, replay, bench, margin, reproduce)
 WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status, companion)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)

@@ -51,7 +51,7 @@ def list_all(
     Example: skein params list --vehicle 1
     """
     with exit_codes():
-        for_vehicles(StationOptions(connect, vehicle, wait, signing_key, json), "Parameters", _values, words=_lines)
+        for_vehicles(StationOptions(connect, vehicle, wait, signing_key, json), "Parameters", values_of, words=_lines)
 
 
 @params.command("get")
@@ -123,7 +123,7 @@ def save(
         folder.mkdir(parents=True, exist_ok=True)
 
         async def keep(one: "VehicleLink") -> dict[str, Any]:
-            values = await _values(one)
+            values = await values_of(one)
             path = folder / f"{one.sysid}.param"
             write_param(values, path)
             return {"file": str(path), "parameters": len(values)}
@@ -160,7 +160,7 @@ def load(
                 files[one.sysid] = {name: value for name, value in values.items() if name not in NOT_LOADED}
 
         async def change(one: "VehicleLink") -> dict[str, float]:
-            held = await _values(one)
+            held = await values_of(one)
             wanted = files[one.sysid].items()
             changed = {name: value for name, value in wanted if held.get(name) != as_float32(value)}
             for name in sorted(
@@ -175,7 +175,8 @@ def load(
         for_vehicles(options, "Loaded", change, check=read, words=_changed)
 
 
-async def _values(one: "VehicleLink") -> dict[str, float]:
+async def values_of(one: "VehicleLink") -> dict[str, float]:
+    """All parameters of a vehicle by name. Raises TransferError."""
     from gcs.transfers.parameters import fetch_parameters
 
     return {name: value for name, (value, _) in (await fetch_parameters(one)).items()}

@@ -168,9 +168,12 @@ class _Items:
             raise reader.error(key + ".autoContinue", f"must be true or false, got {goes_on!r}")
         jump_id = item.get("doJumpId", item.get("id"))
         read = MissionItem(
-            command,
-            frame,
-            *params[:4],
+            command=command,
+            frame=frame,
+            param1=params[0],
+            param2=params[1],
+            param3=params[2],
+            param4=params[3],
             lat_e7=reader.position(params[4], key + ".params[4]", frame),
             lon_e7=reader.position(params[5], key + ".params[5]", frame),
             alt_m=params[6],

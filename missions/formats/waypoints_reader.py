@@ -95,27 +95,29 @@ def _number(name: str, text: str, where: str) -> float:
 
 def _item(values: dict[str, float], where: str) -> MissionItem:
     frame = int(values["frame"])
-    latitude, longitude = (_position(name, values[name], frame, where) for name in ("latitude", "longitude"))
     return MissionItem(
-        int(values["command"]),
-        frame,
-        *(_param(name, values[name], where) for name in ("param1", "param2", "param3", "param4")),
-        lat_e7=latitude,
-        lon_e7=longitude,
-        alt_m=_param("altitude", values["altitude"], where),
+        command=int(values["command"]),
+        frame=frame,
+        param1=_param("param1", values, where),
+        param2=_param("param2", values, where),
+        param3=_param("param3", values, where),
+        param4=_param("param4", values, where),
+        lat_e7=_position("latitude", values, frame, where),
+        lon_e7=_position("longitude", values, frame, where),
+        alt_m=_param("altitude", values, where),
         autocontinue=bool(values["autocontinue"]),
     )
 
 
-def _position(name: str, value: float, frame: int, where: str) -> int:
+def _position(name: str, values: dict[str, float], frame: int, where: str) -> int:
     try:
-        return position_on_wire(value, frame)
+        return position_on_wire(values[name], frame)
     except ValueError as error:
         raise InputError(f"{where}: {name}: {error}") from None
 
 
-def _param(name: str, value: float, where: str) -> float:
+def _param(name: str, values: dict[str, float], where: str) -> float:
     try:
-        return param_on_wire(value)
+        return param_on_wire(values[name])
     except ValueError as error:
         raise InputError(f"{where}: {name}: {error}") from None

@@ -56,9 +56,14 @@ def scenario_around(
     home = missions[0].mission.home
     frame = LocalFrame(home.lat_deg, home.lon_deg, home.alt_m)
     leg_min_m = LimitsModel.model_fields["leg_min_m"].default
-    origins, targets, everywhere = [], [], []
+    origins: list[Point] = []
+    targets: list[Point] = []
+    everywhere: list[Point] = []
     for one in missions:
-        places = _places_m(one, frame)
+        try:
+            places = places_m(one.mission, frame)
+        except InputError as error:
+            raise InputError(f"{one.name}: {error}") from None
         away = [place for place in places[1:] if math.dist(place[:2], places[0][:2]) >= leg_min_m]
         if not away:
             raise InputError(f"{one.name}: no waypoint at least {leg_min_m:g} m from home, so there is no way to plan")
@@ -73,7 +78,7 @@ def scenario_around(
         raise InputError(f"{name}: a target is no higher than home; name the ground with --terrain FILE")
     clearance_m = CLEARANCE_M if terrain is not None else min(CLEARANCE_M, math.floor(lowest_target))
     lines = [
-        f"# Made by skein import from {len(missions)} mission files: a way is planned anew from home to the last place.",
+        f"# Made from {len(missions)} mission files: a way is planned anew from each home to the last place.",
         "# Vehicles that share a place with another start or arrive beside it.",
         f'name = "{tidy(name)}"',
         "seed = 1",
@@ -112,18 +117,15 @@ def tidy(name: str) -> str:
     return re.sub(r"[^\w-]+", "_", name).strip("_") or "imported"
 
 
-def _places_m(one: Named, frame: LocalFrame) -> list[Point]:
-    """Home, and every place in order."""
-    home = one.mission.home
+def places_m(mission: Mission, frame: LocalFrame) -> list[Point]:
+    """Home, and every place of a mission in order. Raises InputError when one is too far from the frame's origin."""
+    home = mission.home
     places = [position_m(home, home, frame)]
     if not math.hypot(*places[0][:2]) < FARTHEST_M:
-        raise InputError(f"{one.name}: home is more than {FARTHEST_M / 1000:g} km from the first file's")
-    for seq, item in enumerate(one.mission.items[1:], start=1):
+        raise InputError(f"home: more than {FARTHEST_M / 1000:g} km from the first file's")
+    for seq, item in enumerate(mission.items[1:], start=1):
         if item.command in PLACES:
-            try:
-                places.append(place_m(seq, item, home, frame, places[-1]))
-            except InputError as error:
-                raise InputError(f"{one.name}: {error}") from None
+            places.append(place_m(seq, item, home, frame, places[-1]))
     return places
 
 

@@ -37,6 +37,10 @@ class CircleStage:
         mark, after: where the mission goes on when it is left, and when it is done.
         guard: keeps it above the ground; None where the mission's altitudes are what counts.
         complete: the mission ends here.
+
+    Attributes:
+        done: it has been flown.
+        arrived: it is on the circle.
     """
 
     def __init__(
@@ -58,7 +62,7 @@ class CircleStage:
         self.complete = complete
         self.done = False
         self.arrived = False
-        self._until = until or Until()
+        self.until = until or Until()
         self._mark = mark
         self._after = after
         self._approach: Approach | None = None
@@ -94,7 +98,7 @@ class CircleStage:
         elif abs(self.distance_m(flight) - self.loiter.radius_m) <= ON_CIRCLE * self.loiter.radius_m:
             self.arrived = True
         self._bearing = bearing
-        until, on_circle_s = self._until, self._ticks * TICK_S
+        until, on_circle_s = self.until, self._ticks * TICK_S
         self.done = on_circle_s >= LEAST_STAY_S and (
             on_circle_s >= until.time_s
             or self._turned >= 2.0 * math.pi * until.turns

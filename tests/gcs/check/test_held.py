@@ -1,0 +1,47 @@
+"""What the parameters of a vehicle forbid of a plan."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+from gcs.check.flight import planned_flight
+from gcs.check.held import forbidden
+from missions.commands import Command
+from missions.fence import NO_FENCE, Fence, FenceCircle
+from missions.mission import Mission, MissionItem
+from missions.scenario import Scenario
+from missions.vehicle_plan import Plan
+
+Place = Callable[..., MissionItem]
+SPEED = MissionItem(Command.DO_CHANGE_SPEED, 2, 0.0, 30.0, -1.0)
+WITH_FENCE = {"FENCE_ENABLE": 1.0, "FENCE_TYPE": 15.0}
+
+
+@pytest.mark.parametrize(
+    ("parameters", "fenced", "told"),
+    [
+        ({"AIRSPEED_MAX": 28.0}, False, [(1, "airspeed that the vehicle ignores", "AIRSPEED_MAX 28")]),
+        ({"ARSPD_FBW_MIN": 31.0}, False, [(1, "airspeed that the vehicle ignores", "ARSPD_FBW_MIN 31")]),
+        ({"WP_RADIUS": 500.0}, False, [(3, "leg within the acceptance radius", "WP_RADIUS 500")]),
+        ({"FENCE_ENABLE": 0.0, "FENCE_TYPE": 4.0}, True, [(None, "the fence would not be heeded", "1 and the bit 4")]),
+        (WITH_FENCE | {"FENCE_ALT_MAX": 110.0}, True, [(3, "height above home", "FENCE_ALT_MAX 110")]),
+        (WITH_FENCE | {"FENCE_RADIUS": 1300.0}, True, [(3, "distance from home", "FENCE_RADIUS 1300")]),
+        (WITH_FENCE | {"FENCE_ALT_MIN": 20.0}, True, []),
+        ({"FENCE_ENABLE": 0.0, "FENCE_ALT_MAX": 10.0, "FENCE_TYPE": 15.0}, False, []),
+        ({"AIRSPEED_MIN": 20.0, "AIRSPEED_MAX": 35.0, "WP_RADIUS": 90.0}, False, []),
+    ],
+)
+def test_limits_are_named_with_the_item_that_breaks_them_and_the_parameter(
+    calm: Scenario,
+    home: MissionItem,
+    place: Place,
+    parameters: Mapping[str, float],
+    fenced: bool,
+    told: list[tuple[int | None, str, str]],
+) -> None:
+    way = (SPEED, place(Command.NAV_WAYPOINT, 1200, 0, 100), place(Command.NAV_WAYPOINT, 1500, 300, 120))
+    fence = Fence((FenceCircle(True, (home.lat_e7, home.lon_e7), 9000.0),)) if fenced else NO_FENCE
+    plan = Plan(Mission((home, *way)), fence)
+    problems = list(forbidden(Path("one.plan"), plan, planned_flight(plan, calm), parameters, calm))
+    assert [(problem.item, problem.what, problem.limit) for problem in problems] == told
