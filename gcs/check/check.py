@@ -1,6 +1,7 @@
 """Mission files checked: what endpoints do not fly, where a flight breaks a limit, and where two of them meet."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +21,8 @@ from planner.checks import TOLERANCE_M
 from planner.proof.separation import separations
 from planner.proof.tracks import Tracks
 from sitl.services.item_rules import refusal
+
+_ITEM = re.compile(r"mission item (\d+): ")
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,7 @@ def check_files(
             try:
                 flight = planned_flight(one.plan, scenario)
             except InputError as error:
-                problems.append(Problem(str(one.path), None, str(error)))
+                problems.append(_as_problem(one.path, str(error)))
         if parameters is not None:
             problems += forbidden(one.path, one.plan, flight, parameters, scenario)
         if flight is None:
@@ -86,6 +89,14 @@ def check_files(
     problems += _too_near(flights, scenario)
     order = {str(one.path): index for index, one in enumerate(files)}
     return Checked(tuple(figures), tuple(sorted(problems, key=lambda problem: order[problem.file])))
+
+
+def _as_problem(path: Path, error: str) -> Problem:
+    """An error about a mission, its item where it names one."""
+    found = _ITEM.match(error)
+    if found is None:
+        return Problem(str(path), None, error)
+    return Problem(str(path), int(found[1]), f"not flown here: {error[found.end() :]}")
 
 
 def not_flown(one: MissionFile) -> list[Problem]:

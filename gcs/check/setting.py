@@ -32,6 +32,8 @@ def setting_for(missions: Sequence[Mission], airframe_of: str | None = None, ter
     Raises:
         InputError: a home is too far from the first one's, or a file cannot be used.
     """
+    if terrain is not None and not terrain.is_file():
+        raise InputError(f"{terrain}: no such file")
     home = missions[0].home
     frame = LocalFrame(home.lat_deg, home.lon_deg, home.alt_m)
     places = [place for mission in missions for place in places_m(mission, frame)]

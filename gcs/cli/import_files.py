@@ -23,7 +23,7 @@ class ComplexChoice(StrEnum):
 
 
 FilesArgument = Annotated[
-    list[Path], typer.Argument(metavar="FILE...", help=".plan, .mission or .waypoints files of any station.")
+    list[Path], typer.Argument(metavar="FILE", help=".plan, .mission or .waypoints files of any station.")
 ]
 HomeOption = Annotated[
     str | None, typer.Option("--home", metavar="LAT,LON,ALT", help="Home in place of the files', metres above sea.")

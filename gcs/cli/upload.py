@@ -81,7 +81,7 @@ def _plan_of_file(path: Path) -> "Plan":
     from missions.errors import InputError
     from missions.formats.mission_file import read_mission_file
 
-    if not path.exists():
+    if not path.suffix and not path.exists():
         raise InputError(f"{path}: neither a run's folder nor a .plan or .waypoints file")
     found = read_mission_file(path)
     for note in found.notes:

@@ -116,6 +116,12 @@ def test_items_that_endpoints_do_not_fly_are_named(write: Write, place: Place) -
     ]
 
 
+def test_a_landing_that_cannot_be_flown_is_named(write: Write, place: Place) -> None:
+    ((_, item, what, _, _),) = check(write([place(WAYPOINT, 1000, 0, 300), place(Command.NAV_LAND, 2000)]), code=1)
+    assert item == 2
+    assert what.startswith("not flown here: LAND: 300 m to lose")
+
+
 def test_ground_area_legs_and_turns_are_those_of_a_scenario(write: Write) -> None:
     scenario = load_scenario("mountains")
     peak = max(scenario.terrain.peaks, key=lambda one: one.height_m)

@@ -191,3 +191,15 @@ def test_wrong_input_is_one_line_and_does_nothing(
 )
 def test_a_wrong_link_is_named(url: str, said: str, skein: Any) -> None:
     assert said in refusal(skein("status", "--connect", url, "--wait", "0.1"))
+
+
+def test_a_file_of_another_station_is_checked_against_a_vehicles_parameters_and_flown(swarm: Any) -> None:
+    file = Path(__file__).parents[2] / "missions" / "formats" / "corpus" / "good" / "qgc_4.plan"
+    result = swarm("check", file, "--vehicle", "2", "--json")
+    assert result.exit_code == 1, result.output
+    (problem,) = json.loads(result.stdout)["problems"]
+    assert problem["what"] == "the fence would not be heeded"
+    assert problem["value"].startswith("FENCE_ENABLE 0")
+    held = swarm.json("upload", file, "--vehicle", "2")[2]
+    assert held["mission"] == 6
+    assert swarm("check", file).exit_code == 2  # of several vehicles one must be chosen
