@@ -14,8 +14,8 @@ from missions.formats.waypoints_reader import read_waypoints
 from missions.mission import MissionItem, degrees_to_e7
 from missions.vehicle_plan import Plan
 
-_PLACELESS = frozenset({Command.NAV_RETURN_TO_LAUNCH, 30, 93, 94})
-"""NAV commands without a place: RETURN_TO_LAUNCH, CONTINUE_AND_CHANGE_ALT, DELAY, PAYLOAD_PLACE where it is."""
+_PLACELESS = frozenset({Command.NAV_RETURN_TO_LAUNCH, 30, 92, 93})
+"""NAV commands without a place: RETURN_TO_LAUNCH, CONTINUE_AND_CHANGE_ALT, GUIDED_ENABLE, DELAY."""
 _LATITUDE_E7, _LONGITUDE_E7 = 90 * 10**7, 180 * 10**7
 
 
