@@ -31,13 +31,13 @@ target = {target}
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> RunFolder:
-    """Planned 350 m apart; plain autopilots are blown to 54 m."""
+    """Planned apart; plain autopilots are blown to 82 m."""
     text, _ = read_scenario_text("crossing")
     head, *_, last = re.split(r"(?=\[\[vehicles\]\])", text)
     rest = "[airframe]" + last.partition("[airframe]")[2]
     east = VEHICLE.format(name="east", sysid=1, origin=[2000.0, 5500.0, 0.0], target=[5400.0, 5500.0, 140.0])
     north = VEHICLE.format(name="north", sysid=2, origin=[2900.0, 4100.0, 0.0], target=[2900.0, 7500.0, 140.0])
-    for key, value in (("steady_m_s", [-5.0, 3.0]), ("separation_m", SAFE_M), ("waypoints", 3)):
+    for key, value in (("steady_m_s", [7.0, -4.0]), ("separation_m", SAFE_M), ("waypoints", 3)):
         rest = re.sub(rf"^{key} = .*$", f"{key} = {value}", rest, flags=re.M)
     rest = rest.replace("[formation]\n", "[formation]\navoidance = true\n")
     changed = head.replace('name = "crossing"', 'name = "meeting"') + east + north + rest

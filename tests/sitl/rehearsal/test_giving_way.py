@@ -113,7 +113,7 @@ def assert_same(configs: list[VehicleConfig], missions: dict[int, Mission], fold
     return texts
 
 
-@settings(max_examples=60, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.generate))
+@settings(max_examples=20, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.generate))
 @given(
     course=st.floats(math.radians(12.0), math.radians(180.0)) | st.floats(-math.radians(180.0), -math.radians(12.0)),
     speeds=st.tuples(st.floats(23.0, 31.0), st.floats(23.0, 31.0)),
