@@ -29,8 +29,9 @@ FINAL_M = (600.0, 4000.0)
 STEP_M = 25.0
 LEVEL_WITHIN_M = 3.0
 ROLL_OUT_M = 150.0
-"""The ground is level from one step before the touchdown on for so long: no more than `LEVEL_WITHIN_M` from it."""
-HEADINGS = 72
+"""The ground is level from one step before the touchdown on for so long, and a step to both sides: no more than
+`LEVEL_WITHIN_M` from it."""
+HEADINGS = 36
 
 
 @dataclass(frozen=True)
@@ -124,30 +125,35 @@ def _find(
     for direction in _directions(HEADINGS):
         leave = centre_m + radius_m * np.array([-direction[1], direction[0]])
         line = leave + np.arange(0.0, FINAL_M[1] + ROLL_OUT_M + STEP_M, STEP_M)[:, np.newaxis] * direction
-        ground = ground_heights_m(line[:, 0], line[:, 1], environment.terrain)
+        aside = STEP_M * np.array([[[0.0, 0.0]], [[-direction[1], direction[0]]], [[direction[1], -direction[0]]]])
+        strip = line + aside
+        ground = ground_heights_m(strip[..., 0], strip[..., 1], environment.terrain)
         clear = _clear_until(line, environment, limits.obstacle_margin_m, limits.separation_m, others, taken)
         with_wind = bool(direction @ scenario.wind.forecast_m_s > 0.0)
         for last in range(int(FINAL_M[0] / STEP_M), clear):
             if best is not None and (with_wind, last * STEP_M) >= best[:2]:
                 break
             if _can_land(ground, last, altitude_m):
-                final = Landing(centre_m, radius_m, altitude_m, line[: last + 1], float(ground[last]))
+                final = Landing(centre_m, radius_m, altitude_m, line[: last + 1], float(ground[0, last]))
                 best = (with_wind, last * STEP_M, final)
                 break
     return best[2] if best is not None else None
 
 
 def _can_land(ground: FloatArray, last: int, altitude_m: float) -> bool:
-    """Whether a final can end at step `last` of a line: not too steep, over lower ground, on level ground."""
-    height = altitude_m - ground[last]
+    """Whether a final can end at step `last` of a line: not too steep, over lower ground, on level ground.
+
+    `ground` is (3, n): heights along the line, and a step left and right of it.
+    """
+    below = ground[0, : last + 1]
+    height = altitude_m - below[last]
     if not 0.0 < height <= GLIDE_SLOPE * last * STEP_M:
         return False
-    if not (
-        ground[: last + 1] - ground[last] <= 0.5 * height * (1.0 - np.arange(last + 1) / last) + LEVEL_WITHIN_M
-    ).all():
+    share = 1.0 - np.arange(last + 1) / last
+    if (below - below[last] > 0.5 * height * share + LEVEL_WITHIN_M).any():
         return False
-    runway = ground[last - 1 : last + 1 + int(ROLL_OUT_M / STEP_M)]
-    return bool((np.abs(runway - ground[last]) <= LEVEL_WITHIN_M).all())
+    runway = ground[:, last - 1 : last + 1 + int(ROLL_OUT_M / STEP_M)]
+    return bool((np.abs(runway - below[last]) <= LEVEL_WITHIN_M).all())
 
 
 def _clear_until(
