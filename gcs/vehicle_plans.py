@@ -18,6 +18,8 @@ from planner.formation_plan import FormationPlan
 FloatArray = npt.NDArray[np.float64]
 
 _STEP_S = 1.0
+_STEPS_PER_LINE = 4
+"""A straight line home is looked at from one point in so many."""
 _CIRCLE_POINTS = 72
 
 
@@ -62,7 +64,8 @@ def vehicle_plans(scenario: Scenario, formation: FormationPlan, *, landing: bool
             way_m = np.vstack([way_m, down[uav.sysid].way_m()])
         fence, unfenced = surroundings_fence(environment, frame, way_m)
         home_m = (*frame.from_e7(home.lat_e7, home.lon_e7), home.alt_m - frame.alt_m)
-        safe_m = safe_return_altitude_m(home_m, way_m, environment, limits.clearance_m, limits.obstacle_margin_m)
+        starts_m = way_m[::_STEPS_PER_LINE]
+        safe_m = safe_return_altitude_m(home_m, starts_m, environment, limits.clearance_m, limits.obstacle_margin_m)
         height_m = float(math.ceil(safe_m - home_m[2]))
         rally = rally_items([(home.lat_e7, home.lon_e7, height_m)])
         plans.append(VehiclePlan(uav.sysid, uav.name, Plan(mission, fence, rally), unfenced, height_m))

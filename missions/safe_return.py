@@ -4,12 +4,11 @@ import numpy as np
 import numpy.typing as npt
 
 from missions.environment import Environment, ground_heights_m
-from missions.environment.obstacles import wall_distances_m
 
 FloatArray = npt.NDArray[np.float64]
 
 _PARTS = 200
-"""Points on each line home."""
+"""Of each line home, between which the ground is not looked at."""
 
 
 def safe_return_altitude_m(
@@ -28,14 +27,15 @@ def safe_return_altitude_m(
         clearance_m: above the ground and above obstacles.
         obstacle_margin_m: beside an obstacle's wall, within which it counts.
     """
-    home = np.asarray(home_m)
+    home = np.asarray(home_m[:2])
+    ways = way_m[:, :2] - home
     part = np.linspace(0.0, 1.0, _PARTS + 1)[:, np.newaxis, np.newaxis]
-    lines = home + part * (way_m - home)
+    lines = home + part * ways
     highest = float(ground_heights_m(lines[..., 0], lines[..., 1], environment.terrain).max())
     for obstacle in environment.obstacles:
-        level = lines.copy()
-        level[..., 2] = obstacle.top_m
-        spacing_m = np.hypot(*(way_m - home)[:, :2].T) / _PARTS
-        if (wall_distances_m(level, obstacle) < obstacle_margin_m + spacing_m / 2).any():
+        axis = np.array([obstacle.x_m, obstacle.y_m]) - home
+        nearest = np.clip(ways @ axis / np.maximum((ways**2).sum(axis=1), 1e-9), 0.0, 1.0)
+        distance_m = np.hypot(*(nearest[:, np.newaxis] * ways - axis).T).min()
+        if distance_m < obstacle.radius_m + obstacle_margin_m:
             highest = max(highest, obstacle.top_m)
     return max(highest, home_m[2]) + clearance_m
