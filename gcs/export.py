@@ -1,5 +1,6 @@
 """A run's missions as files for autopilots, other ground stations, maps and globes."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -128,4 +129,6 @@ def _notes(scenario: Scenario, vehicles: Sequence[VehiclePlan], options: ExportO
     if options.autopilot is Autopilot.px4:
         yield f"PX4 needs no rally point to come home: set RTL_RETURN_ALT, clear of ground and obstacles: {heights}"
     else:
+        limit_km = math.ceil(max(vehicle.farthest_m for vehicle in vehicles) / 1000.0)
         yield f"rally points are at home, so high that any straight way back is clear: {heights}"
+        yield f"rally points farther away than RALLY_LIMIT_KM do not count: set it to {limit_km} or more"

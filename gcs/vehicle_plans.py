@@ -32,6 +32,7 @@ class VehiclePlan:
         plan: altitudes AMSL, home as item 0; in no autopilot's dialect yet.
         unfenced: such as "radars[1]": what its way comes too near to for an exclusion fence.
         return_height_m: above home; from there it comes home in a straight line from anywhere on its way.
+        farthest_m: from home, of all its way.
     """
 
     sysid: int
@@ -39,6 +40,7 @@ class VehiclePlan:
     plan: Plan
     unfenced: tuple[str, ...]
     return_height_m: float
+    farthest_m: float
 
 
 def vehicle_plans(scenario: Scenario, formation: FormationPlan, *, landing: bool = False) -> list[VehiclePlan]:
@@ -68,7 +70,8 @@ def vehicle_plans(scenario: Scenario, formation: FormationPlan, *, landing: bool
         safe_m = safe_return_altitude_m(home_m, starts_m, environment, limits.clearance_m, limits.obstacle_margin_m)
         height_m = float(math.ceil(safe_m - home_m[2]))
         rally = rally_items([(home.lat_e7, home.lon_e7, height_m)])
-        plans.append(VehiclePlan(uav.sysid, uav.name, Plan(mission, fence, rally), unfenced, height_m))
+        farthest_m = float(np.hypot(*(way_m[:, :2] - home_m[:2]).T).max())
+        plans.append(VehiclePlan(uav.sysid, uav.name, Plan(mission, fence, rally), unfenced, height_m, farthest_m))
     return plans
 
 

@@ -117,6 +117,13 @@ def test_a_rally_point_is_home_high_above_it(scenario: Scenario, formation: Form
         assert vehicle.return_height_m >= scenario.limits.clearance_m
 
 
+def test_notes_say_how_far_rally_points_must_count(write: Write, scenario: Scenario, formation: FormationPlan) -> None:
+    straight_m = max(math.dist(uav.waypoints_m[0][:2], uav.waypoints_m[-1][:2]) for uav in formation.uavs)
+    (note,) = (note for note in write("plan").notes if "RALLY_LIMIT_KM" in note)
+    told_km = int(note.split("set it to ")[1].split()[0])
+    assert straight_m / 1000.0 <= told_km <= straight_m / 1000.0 + 2.0
+
+
 def test_terrain_is_refused_for_px4_by_vehicle(write: Write) -> None:
     with pytest.raises(InputError, match="vehicle 1: terrain: PX4 refuses altitudes above terrain"):
         write("plan", Autopilot.px4, AltitudeFrame.terrain)
