@@ -9,7 +9,7 @@ from matplotlib.colors import to_hex
 from gcs.figures.style import vehicle_colours
 from missions.commands import PLACES, Command
 from missions.environment import Obstacle, Radar, ground_height_m
-from missions.formats.scene import LatLon, Round, Scene, Stop, Track
+from missions.formats.scene import Round, Scene, Stop, Track
 from missions.frame import LocalFrame
 from missions.mission import Mission
 from missions.reference import Reference
@@ -61,7 +61,7 @@ def scene(scenario: Scenario, formation: FormationPlan, missions: Mapping[int, M
 def _track(sysid: int, name: str, colour: str, reference: Reference, mission: Mission, frame: LocalFrame) -> Track:
     time_s = np.append(np.arange(0.0, reference.duration_s, STEP_S), reference.duration_s)
     points = reference.positions(time_s)
-    lat_deg, lon_deg = frame.to_geodetic_many(points[:, 0], points[:, 1])
+    lat_deg, lon_deg = np.array([frame.to_geodetic(x, y) for x, y in points[:, :2].tolist()]).T
     speed_m_s = np.gradient(reference.arc_lengths(time_s), time_s)
     stops = tuple(_stops(mission, reference))
     return Track(sysid, name, colour, time_s, lat_deg, lon_deg, points[:, 2] + frame.alt_m, speed_m_s, stops)
@@ -88,9 +88,7 @@ def _stops(mission: Mission, reference: Reference) -> Iterator[Stop]:
 
 def _round(name: str, place: Radar | Obstacle, bottom_m: float, top_m: float, frame: LocalFrame) -> Round:
     lat_deg, lon_deg = frame.to_geodetic(place.x_m, place.y_m)
-    angles = np.linspace(0.0, 2.0 * math.pi, RIM_PLACES, endpoint=False)
-    rim_lat, rim_lon = frame.to_geodetic_many(
-        place.x_m + place.radius_m * np.cos(angles), place.y_m + place.radius_m * np.sin(angles)
-    )
-    rim: tuple[LatLon, ...] = tuple(zip(rim_lat.tolist(), rim_lon.tolist(), strict=True))
+    angles = [2.0 * math.pi * i / RIM_PLACES for i in range(RIM_PLACES)]
+    around = [(place.x_m + place.radius_m * math.cos(a), place.y_m + place.radius_m * math.sin(a)) for a in angles]
+    rim = tuple(frame.to_geodetic(x, y) for x, y in around)
     return Round(name, lat_deg, lon_deg, place.radius_m, bottom_m + frame.alt_m, top_m + frame.alt_m, rim)
