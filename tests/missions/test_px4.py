@@ -118,6 +118,30 @@ def test_px4_has_no_word_against_a_mission_that_was_made_for_it(mission: Mission
     assert len(made) == len(mission)
 
 
+@given(
+    st.sampled_from([Command.NAV_WAYPOINT, Command.NAV_LOITER_TO_ALT]),
+    st.floats(3.0, 8.0),
+    st.floats(10.0, 90.0),
+    st.sampled_from([90.0, -90.0]),
+)
+def test_a_landing_is_taken_up_to_five_degrees(
+    command: Command, slope_deg: float, height_m: float, radius_m: float
+) -> None:
+    final_m = height_m / math.tan(math.radians(slope_deg))
+    centre_m = final_m if command == Command.NAV_WAYPOINT else math.hypot(final_m, radius_m)
+    lon_deg, lat_deg, _ = GLOBE.fwd(FAR.lon_deg, FAR.lat_deg, 30.0, centre_m)
+    approach = replace(FAR, command=command, param2=radius_m, alt_m=1200.0 + height_m)
+    land = MissionItem(
+        Command.NAV_LAND, Frame.GLOBAL, lat_e7=round(lat_deg * 1e7), lon_e7=round(lon_deg * 1e7), alt_m=1200.0
+    )
+    mission = Mission((HOME, TAKEOFF, approach, land))
+    if slope_deg > 5.01:
+        with pytest.raises(InputError, match=r"mission item 3: .* is steeper than PX4's 5 degrees"):
+            px4_mission(mission)
+    elif slope_deg < 4.99:
+        assert rejections(px4_items(px4_mission(mission)), HOME.alt_m) == []
+
+
 def test_the_take_off_lies_ahead_on_the_first_leg() -> None:
     made = px4_mission(Mission((HOME, TAKEOFF, FAR)))
     azimuth = [GLOBE.inv(HOME.lon_deg, HOME.lat_deg, item.lon_deg, item.lat_deg)[0] for item in made.items[1:]]
