@@ -15,12 +15,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from gcs.export import ExportOptions, export
 from missions.elevation import write_local_raster
 from missions.errors import InputError
-from missions.formats.qgc_plan import write_plan
-from missions.formats.waypoints import write_waypoints
 from missions.scenario import Scenario, parse_scenario
-from missions.vehicle_plan import Plan
 from planner.formation_plan import FormationPlan, load_plan
 
 RUNS = Path("runs")
@@ -79,7 +77,7 @@ class RunFolder:
         except OSError as error:
             raise _unwritable(self.path, error) from None
         for file_format in ("plan", "waypoints"):
-            export_missions(scenario, plan, file_format, missions)
+            export(scenario, plan, ExportOptions(file_format), missions)
 
     def read(self) -> tuple[Scenario, FormationPlan]:
         """The scenario and the plan of this run.
@@ -148,23 +146,6 @@ def make_run_folder(out: Path | None, scenario_name: str) -> RunFolder:
         except OSError as error:
             raise _unwritable(path, error) from None
     raise AssertionError("there is always another name")
-
-
-def export_missions(scenario: Scenario, plan: FormationPlan, file_format: str, folder: Path) -> list[Path]:
-    """Write each vehicle's mission in one format ("plan" or "waypoints") as <sysid>-<name>.<format>.
-
-    Raises:
-        InputError: a file cannot be written.
-    """
-    written = []
-    for uav in plan.uavs:
-        path = folder / f"{uav.sysid}-{uav.name}.{file_format}"
-        if file_format == "plan":
-            write_plan(Plan(uav.mission), path, cruise_speed_m_s=scenario.airframe.airspeed_cruise_m_s)
-        else:
-            write_waypoints(uav.mission, path)
-        written.append(path)
-    return written
 
 
 def _unwritable(path: Path, error: OSError) -> InputError:

@@ -51,3 +51,16 @@ LAST_NAV = 95
 
 NAVIGATION = frozenset({Command.NAV_WAYPOINT, Command.NAV_LOITER_UNLIM})
 """Commands whose item is a point that the path goes through."""
+
+PLACES = frozenset(
+    {
+        Command.NAV_WAYPOINT,
+        Command.NAV_LOITER_UNLIM,
+        Command.NAV_LOITER_TURNS,
+        Command.NAV_LOITER_TIME,
+        Command.NAV_LOITER_TO_ALT,
+        Command.NAV_LAND,
+        Command.NAV_TAKEOFF,
+    }
+)
+"""Commands whose item has a latitude, a longitude and an altitude."""

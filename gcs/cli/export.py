@@ -1,4 +1,4 @@
-"""`skein export`: a run's missions as files for other ground stations."""
+"""`skein export`: a run's missions as files for autopilots, other ground stations, maps and globes."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -8,6 +8,8 @@ import typer
 
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import RunArgument
+from missions.altitude_frame import AltitudeFrame
+from missions.autopilot import Autopilot
 
 
 class MissionFormat(StrEnum):
@@ -15,27 +17,60 @@ class MissionFormat(StrEnum):
 
     plan = "plan"
     waypoints = "waypoints"
+    kml = "kml"
+    czml = "czml"
+    geojson = "geojson"
 
 
 FormatOption = Annotated[
-    MissionFormat, typer.Option("--format", help="plan: QGroundControl; waypoints: Mission Planner, MAVProxy.")
+    MissionFormat,
+    typer.Option(
+        "--format",
+        help="plan: QGroundControl, MAVSDK; waypoints: Mission Planner, MAVProxy; kml: Google Earth; czml: Cesium; "
+        "geojson: maps.",
+    ),
+]
+AutopilotOption = Annotated[Autopilot, typer.Option("--autopilot", help="Whose dialect plan and waypoints are in.")]
+FrameOption = Annotated[
+    AltitudeFrame,
+    typer.Option(
+        "--frame", help="What altitudes are above: the sea, home, or the ground as the autopilot knows it (ArduPilot)."
+    ),
+]
+LandingOption = Annotated[
+    bool, typer.Option("--landing", help="Land near the targets at the end, instead of circling there.")
 ]
 FolderOption = Annotated[
-    Path | None, typer.Option("--out", metavar="DIR", help="Folder; the run's missions/ unless given.")
+    Path | None,
+    typer.Option("--out", metavar="DIR", help="Folder; unless given the run's missions/, or one in it for a choice."),
 ]
 
 
-def export(run: RunArgument, file_format: FormatOption, out: FolderOption = None) -> None:
-    """Write each vehicle's mission as a file.
+def export(
+    run: RunArgument,
+    file_format: FormatOption,
+    autopilot: AutopilotOption = Autopilot.ardupilot,
+    frame: FrameOption = AltitudeFrame.amsl,
+    landing: LandingOption = False,
+    out: FolderOption = None,
+) -> None:
+    """Write each vehicle's mission as a file; for maps, all vehicles together as well.
 
-    Example: skein export runs/first --format waypoints --out /tmp/missions
+    Example: skein export runs/first --format plan --autopilot px4 --frame relative
     """
     with exit_codes():
         from gcs.cli import output
-        from gcs.run_folder import RunFolder, export_missions
+        from gcs.export import ExportOptions
+        from gcs.export import export as write
+        from gcs.run_folder import RunFolder
 
         scenario, plan = RunFolder(run).read()
-        folder = out or run / "missions"
+        choice = [autopilot.value] * (autopilot is not Autopilot.ardupilot)
+        choice += [frame.value] * (frame is not AltitudeFrame.amsl) + ["landing"] * landing
+        folder = out or run / "missions" / "-".join(choice)
         folder.mkdir(parents=True, exist_ok=True)
-        for path in export_missions(scenario, plan, file_format.value, folder):
+        exported = write(scenario, plan, ExportOptions(file_format.value, autopilot, frame, landing), folder)
+        for path in exported.files:
             output.out.print(str(path), soft_wrap=True)
+        for note in exported.notes:
+            output.progress.print(f"skein: {note}", soft_wrap=True)

@@ -87,7 +87,10 @@ def _check(vehicle: VehicleLink, plan_type: PlanType, items: Sequence[MissionIte
         raise TransferError(f"{vehicle}: is a {kind}, and gets no {_plan(plan_type)}: Skein's are for planes")
     px4 = heartbeat is not None and heartbeat.autopilot == mavlink.MAV_AUTOPILOT_PX4
     if px4 and plan_type == PlanType.MISSION:
-        raise TransferError(f"{vehicle}: is a PX4, which would fly to item 0, home; upload a .plan with QGroundControl")
+        raise TransferError(
+            f"{vehicle}: is a PX4, which would fly to item 0, home; upload with QGroundControl what `skein "
+            "export --format plan --autopilot px4` writes"
+        )
     if len(items) > _LARGEST_COUNT:
         raise TransferError(f"{vehicle}: {len(items)} items are more than MAVLink can count; {_LARGEST_COUNT} at most")
 

@@ -5,26 +5,29 @@ import math
 from pathlib import Path
 from typing import Any
 
-from missions.commands import Command, Frame
+from missions.autopilot import Autopilot
+from missions.commands import PLACES, Command, Frame
 from missions.errors import InputError
 from missions.formats.files import write_text
 from missions.formats.qgc_areas import fence_section, rally_section
 from missions.mission import MissionItem
 from missions.vehicle_plan import Plan
 
-_FIRMWARE_ARDUPILOT = 3
 _VEHICLE_FIXED_WING = 1
-_ALTITUDE_MODE_ABSOLUTE = 2
+_ALTITUDE_MODES = {int(Frame.GLOBAL_RELATIVE_ALT): 1, int(Frame.GLOBAL): 2, int(Frame.GLOBAL_TERRAIN_ALT): 4}
+"""QGroundControl's AltitudeMode of a frame: without it, it takes frame 10 for altitudes AMSL."""
+_ALTITUDE_MODE_MIXED = 0
 _HOVER_SPEED_M_S = 5.0  # of no use to a plane, but the format wants it
 
 
-def write_plan(plan: Plan, path: Path, *, cruise_speed_m_s: float) -> None:
+def write_plan(plan: Plan, path: Path, *, cruise_speed_m_s: float, autopilot: Autopilot = Autopilot.ardupilot) -> None:
     """Write a plan; `read_plan` gives back an equal one, but for the order of areas: polygons come first.
 
     Args:
         plan: its home is written as a position, so it must be a plain NAV_WAYPOINT in frame 0.
         path: the file.
         cruise_speed_m_s: what QGroundControl reckons flight times with.
+        autopilot: whose dialect the plan is in.
 
     Raises:
         InputError: the file cannot be written or the format cannot hold the mission.
@@ -33,17 +36,18 @@ def write_plan(plan: Plan, path: Path, *, cruise_speed_m_s: float) -> None:
     home = mission.home
     if home != home_item(home.lat_e7, home.lon_e7, home.alt_m):
         raise InputError(f"{path}: item 0: home must be a NAV_WAYPOINT in frame 0 without parameters")
+    modes = {mode for item in mission.items[1:] if (mode := _altitude_mode(item)) is not None}
     contents = {
         "fileType": "Plan",
         "version": 1,
         "groundStation": "Skein",
         "mission": {
             "version": 2,
-            "firmwareType": _FIRMWARE_ARDUPILOT,
+            "firmwareType": autopilot.mav_autopilot,
             "vehicleType": _VEHICLE_FIXED_WING,
             "cruiseSpeed": cruise_speed_m_s,
             "hoverSpeed": _HOVER_SPEED_M_S,
-            "globalPlanAltitudeMode": _ALTITUDE_MODE_ABSOLUTE,
+            "globalPlanAltitudeMode": modes.pop() if len(modes) == 1 else _ALTITUDE_MODE_MIXED,
             "plannedHomePosition": [home.lat_deg, home.lon_deg, home.alt_m],
             "items": [_simple_item(seq, mission[seq]) for seq in range(1, len(mission))],
         },
@@ -62,9 +66,13 @@ def home_item(lat_e7: int, lon_e7: int, alt_m: float) -> MissionItem:
     return MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=lat_e7, lon_e7=lon_e7, alt_m=alt_m)
 
 
+def _altitude_mode(item: MissionItem) -> int | None:
+    return _ALTITUDE_MODES.get(item.frame) if item.command in PLACES else None
+
+
 def _simple_item(seq: int, item: MissionItem) -> dict[str, Any]:
     params = [None if math.isnan(value) else value for value in item.params]
-    return {
+    simple = {
         "type": "SimpleItem",
         "frame": item.frame,
         "command": item.command,
@@ -72,3 +80,7 @@ def _simple_item(seq: int, item: MissionItem) -> dict[str, Any]:
         "autoContinue": item.autocontinue,
         "doJumpId": seq,
     }
+    mode = _altitude_mode(item)
+    if mode is None:
+        return simple
+    return simple | {"AltitudeMode": mode, "Altitude": item.alt_m, "AMSLAltAboveTerrain": None}

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from missions.autopilot import Autopilot
 from missions.errors import InputError
 from missions.fence import Fence, FenceCircle, FencePolygon, rally_items
 from missions.formats.qgc_plan import write_plan
@@ -67,6 +68,39 @@ def test_it_has_all_that_qgroundcontrol_asks_for(plan: dict[str, Any]) -> None:
     assert mission["plannedHomePosition"] == [46.5, 11.3, 1200.0]
     assert [item["doJumpId"] for item in mission["items"]] == [1, 2]
     assert mission["items"][1]["params"] == [0.0, 50.0, 0.0, None, 46.51, 11.31, 1500.0]
+
+
+ALTITUDE_KEYS = {"AltitudeMode", "Altitude", "AMSLAltAboveTerrain"}
+
+
+@pytest.mark.parametrize(("frame", "mode"), [(3, 1), (0, 2), (10, 4)])
+def test_items_with_a_place_say_qgroundcontrol_s_altitude_mode_and_others_nothing_of_it(
+    tmp_path: Path, frame: int, mode: int
+) -> None:
+    items = (MissionItem(178, 2, 0.0, 24.5, -1.0), MissionItem(16, frame, lat_e7=1, lon_e7=2, alt_m=150.5))
+    path = tmp_path / "any.plan"
+    write_plan(Plan(Mission((MissionItem(16), *items))), path, cruise_speed_m_s=24.5)
+    mission = json.loads(path.read_text())["mission"]
+    speed, waypoint = mission["items"]
+    assert not ALTITUDE_KEYS & speed.keys()
+    assert {key: waypoint[key] for key in ALTITUDE_KEYS} == {
+        "AltitudeMode": mode,
+        "Altitude": 150.5,
+        "AMSLAltAboveTerrain": None,
+    }
+    assert mission["globalPlanAltitudeMode"] == mode
+
+
+def test_a_plan_of_two_frames_is_of_mixed_altitudes(tmp_path: Path) -> None:
+    path = tmp_path / "any.plan"
+    write_plan(Plan(Mission((MissionItem(16), MissionItem(22, 3), MissionItem(16, 10)))), path, cruise_speed_m_s=24.5)
+    assert json.loads(path.read_text())["mission"]["globalPlanAltitudeMode"] == 0
+
+
+def test_a_plan_for_px4_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "any.plan"
+    write_plan(Plan(Mission((MissionItem(16),))), path, cruise_speed_m_s=24.5, autopilot=Autopilot.px4)
+    assert json.loads(path.read_text())["mission"]["firmwareType"] == 12
 
 
 def _set(*keys: Any, to: Any) -> Callable[[dict[str, Any]], None]:
