@@ -129,17 +129,17 @@ class Link:
                 mine.along_m, mine.along_rate_m_s, other.along_m, other.along_rate_m_s, weight * self.trust, gains
             )
         if self._clocked:
-            self.needs = self._needs(tick, own[-1], other) if self.used else NO_NEEDS
+            self.needs = _needs(own[-1], other) if self.used else NO_NEEDS
         self.trust = trusted(self.trust, self.used)
         return part
-
-    def _needs(self, tick: int, own: Correction, other: Correction) -> tuple[float, float]:
-        age_s = (tick - other.tick) * TICK_S
-        return (
-            neighbours_need(own.slowed_s, other.slowed_s, other.slowed_rate, age_s),
-            neighbours_need(own.hurried_s, other.hurried_s, other.hurried_rate, age_s),
-        )
 
     def _pair(self, tick: int, own: Sequence[Correction], sample: Correction) -> tuple[Correction, Correction]:
         """The own and the neighbour's deviation, of one moment."""
         return own[-1 - min(tick - self._newest, len(own) - 1)], sample
+
+
+def _needs(own: Correction, other: Correction) -> tuple[float, float]:
+    return (
+        neighbours_need(own.slowed_s, other.slowed_s, other.slowed_rate),
+        neighbours_need(own.hurried_s, other.hurried_s, other.hurried_rate),
+    )

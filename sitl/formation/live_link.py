@@ -25,7 +25,5 @@ class LiveLink(Link):
         carried_on = sample._replace(
             tick=moment,
             along_m=sample.along_m + sample.along_rate_m_s * later_s,
-            slowed_s=sample.slowed_s + sample.slowed_rate * later_s,
-            hurried_s=sample.hurried_s + sample.hurried_rate * later_s,
         )
         return own[-1 - min(tick - moment, len(own) - 1)], carried_on

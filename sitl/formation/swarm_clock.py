@@ -24,7 +24,7 @@ PER_M = 0.05
 """and by so much more a metre, 1/m."""
 PULL = 0.5
 """1/s, from what a neighbour's sum is greater to the rate at which the own one grows."""
-HANDED_ON = 0.9
+HANDED_ON = 0.95
 """The share of a neighbour's rate that a vehicle takes over. With all of it two would keep each other at it."""
 SMOOTH_S = 0.5
 """Time constant of the rate."""
@@ -79,9 +79,13 @@ def own_needs(along_m: float, air: AirState, controls: Controls, airframe: Airfr
     return slow, hurry
 
 
-def neighbours_need(sum_s: float, other_sum_s: float, other_rate: float, age_s: float) -> float:
-    """The rate at which a neighbour would have the own sum grow; what it says of its own is so old."""
-    return HANDED_ON * other_rate + PULL * (other_sum_s + other_rate * age_s - sum_s)
+def neighbours_need(sum_s: float, other_sum_s: float, other_rate: float) -> float:
+    """The rate at which a neighbour would have the own sum grow.
+
+    What it says is old, the own sum is of now: as sums only grow, nobody is pulled beyond where the other is. (Carried
+    on to now by its rate it would be: two pulled each other on for ever, at a delay of a second.)
+    """
+    return HANDED_ON * other_rate + PULL * (other_sum_s - sum_s)
 
 
 def grown(shift: Shift, need: float) -> Shift:

@@ -217,9 +217,9 @@ def fly_one(
                         gains,
                     )
                     if law.swarm_clock:
-                        other, age_s = record.shifts[q, stamp], (tick - stamp) * TICK_S
-                        slow = max(slow, neighbours_need(slowed.sum_s, other[0], other[1], age_s))
-                        hurry = max(hurry, neighbours_need(hurried.sum_s, other[2], other[3], age_s))
+                        other = record.shifts[q, stamp]
+                        slow = max(slow, neighbours_need(slowed.sum_s, other[0], other[1]))
+                        hurry = max(hurry, neighbours_need(hurried.sum_s, other[2], other[3]))
                 hearing.trust[link] = trusted(trust, used)
                 record.used[link, tick] = used
             airspeed = airspeed_at(point.s_m, tables.airspeeds)

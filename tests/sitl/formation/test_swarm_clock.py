@@ -13,8 +13,10 @@ from sitl.aircraft.point_mass import AirState, Controls
 from sitl.formation.graph import edges
 from sitl.formation.swarm_clock import (
     FROM_M,
+    HANDED_ON,
     MOST,
     PER_M,
+    SMOOTH_S,
     UNSHIFTED,
     Shift,
     Shifts,
@@ -51,14 +53,14 @@ def run(kind: str, delay_ticks: int, needs: dict[int, tuple[float, float]], seco
             rate, until_s = needs.get(p, (0.0, 0.0))
             need = rate if tick * TICK_S < until_s else 0.0
             for q in neighbours[p]:
-                need = max(need, neighbours_need(now[p].sum_s, said[q].sum_s, said[q].rate, delay_ticks * TICK_S))
+                need = max(need, neighbours_need(now[p].sum_s, said[q].sum_s, said[q].rate))
             wanted.append(need)
         now = [grown(shift, need) for shift, need in zip(now, wanted, strict=True)]
         history.append(now)
     return history
 
 
-@settings(max_examples=15)
+@settings(max_examples=10)
 @given(
     kind=st.sampled_from(["ring", "line", "star", "complete"]),
     delay_ticks=st.integers(1, 25),
@@ -69,7 +71,7 @@ def run(kind: str, delay_ticks: int, needs: dict[int, tuple[float, float]], seco
 def test_all_go_where_the_greatest_is_then_rest_and_never_go_back(
     kind: str, delay_ticks: int, needs: dict[int, tuple[float, float]]
 ) -> None:
-    history = run(kind, delay_ticks, needs, 120.0)
+    history = run(kind, delay_ticks, needs, 300.0)
     for before, after in itertools.pairwise(history):
         for one, later in zip(before, after, strict=True):
             assert one.sum_s <= later.sum_s
@@ -78,7 +80,8 @@ def test_all_go_where_the_greatest_is_then_rest_and_never_go_back(
     assert max(sums) - min(sums) < 0.01
     assert max(shift.rate for shift in history[-1]) < 1e-3
     most = max(min(rate, MOST) * until_s for rate, until_s in needs.values())
-    assert 0.9 * most - 0.5 <= max(sums) <= MOST * 20.0 + 6.0
+    handed_round_s = HANDED_ON / (1.0 - HANDED_ON) * (delay_ticks * TICK_S + SMOOTH_S)
+    assert 0.9 * most - 0.5 <= max(sums) <= most + MOST * handed_round_s + 0.1
 
 
 @pytest.mark.parametrize("kind", ["ring", "line"])
@@ -86,7 +89,7 @@ def test_while_one_slows_down_steadily_the_others_are_close_behind(kind: str) ->
     steady = run(kind, 5, {0: (0.1, 1e9)}, 120.0)[-1]
     assert all(shift.rate == pytest.approx(0.1, abs=0.001) for shift in steady)
     hops = COUNT - 1 if kind == "line" else COUNT // 2
-    assert max(shift.sum_s for shift in steady) - min(shift.sum_s for shift in steady) < 0.025 * hops
+    assert max(shift.sum_s for shift in steady) - min(shift.sum_s for shift in steady) < 0.045 * hops
 
 
 def state(airspeed_m_s: float) -> AirState:
