@@ -16,7 +16,7 @@ SKEIN = (sys.executable, "-m", "gcs.main")
 
 
 def test_one_station_flies_all_and_all_arrive_together(start_sim: Callable[..., Any], run_folder: Path) -> None:
-    with start_sim("--speed", 10, "--no-corrections", "--wipe") as sim:
+    with start_sim("--speed", 20, "--no-corrections", "--wipe") as sim:
         result = subprocess.run(
             [*SKEIN, "fly", str(run_folder), "--connect", sim.udp, "--json"],
             capture_output=True,
@@ -36,7 +36,7 @@ def test_companions_beside_their_vehicles_agree_over_zenoh(
 ) -> None:
     field = tmp_path / "field.toml"
     field.write_text(f'swarm = "field"\nrouter = "tcp/127.0.0.1:{free_port()}"\n')
-    with ExitStack() as stack, start_sim("--speed", 10, "--no-corrections", "--wipe") as sim:
+    with ExitStack() as stack, start_sim("--speed", 20, "--no-corrections", "--wipe") as sim:
 
         def launch(*arguments: object) -> "subprocess.Popen[str]":
             process = subprocess.Popen([*SKEIN, *map(str, arguments)], stdout=subprocess.PIPE, text=True)
@@ -72,7 +72,7 @@ def test_nobody_is_armed_while_one_is_not_ready(
     start_sim: Callable[..., Any], run_folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("gcs.companion.connected_flight.READY_S", 2.0)
-    with start_sim("--speed", 10, "--no-corrections", "--wipe") as sim:
+    with start_sim("--speed", 20, "--no-corrections", "--wipe") as sim:
         assert sim("params", "set", "AIRSPEED_MIN", "35", "--vehicle", "2").exit_code == 0
         result = sim("fly", run_folder)
         assert result.exit_code == 2
