@@ -23,6 +23,10 @@ from planner.proof.tracks import Tracks
 
 FloatArray = npt.NDArray[np.float64]
 
+ROUNDED_M = 5.0
+"""A leg along the arcs at its ends is shorter than from corner to corner, which is what a plan is held to."""
+STEEPER = 0.02
+"""Part by which a climb may be steeper along arcs, and into the circle at the end, than from corner to corner."""
 MOST_POWER = 1.0
 """Part of the power there is that a leg may take."""
 
@@ -109,7 +113,7 @@ class Judge:
         angles = np.degrees(np.arctan(whole.slopes(s_m)))
         for what, sign in (("climb", 1.0), ("descent", -1.0)):
             k = int(np.argmax(sign * angles))
-            if sign * angles[k] > most * (1 + TOLERANCE):
+            if sign * angles[k] > most * (1 + STEEPER):
                 yield self._at(float(s_m[k]), f"{what} angle", f"{abs(angles[k]):.1f} deg", f"{most:g} deg")
 
     def _banks(self, tracks: Tracks) -> Iterator[Problem]:
@@ -135,7 +139,7 @@ class Judge:
             corners = path.path.corner_s_m
             for k, length in enumerate(np.diff(corners).tolist()):
                 for broken, limit in (
-                    (length < limits.leg_min_m - TOLERANCE_M, limits.leg_min_m),
+                    (length < limits.leg_min_m - ROUNDED_M, limits.leg_min_m),
                     (length > limits.leg_max_m + TOLERANCE_M, limits.leg_max_m),
                 ):
                     if broken and not (begun_m + corners[k + 1] > self.flight.descent_m):

@@ -10,12 +10,14 @@ import pytest
 from typer.testing import CliRunner
 
 from gcs.cli import app
+from gcs.run_folder import RunFolder
 from missions.commands import Command
 from missions.fence import NO_FENCE, Fence, FenceCircle
 from missions.formats.qgc_plan import write_plan
 from missions.mission import Mission, MissionItem
-from missions.scenario import Scenario, load_scenario
+from missions.scenario import Scenario, load_scenario, read_scenario_text
 from missions.vehicle_plan import Plan
+from planner.plan import plan
 
 Place = Callable[..., MissionItem]
 Write = Callable[..., Path]
@@ -136,6 +138,14 @@ def test_ground_area_legs_and_turns_are_those_of_a_scenario(write: Write) -> Non
     way = [item(x, y, 200.0), item(x + east, y + north, 200.0), item(x + 1.2 * east, y + 1.2 * north, 200.0)]
     problems = check(write(way, home=item(*start)), "--scenario", "mountains", code=1)
     assert {"height above ground", "leg length", "turn"} <= {what for _, _, what, _, _ in problems}
+
+
+def test_what_skein_has_planned_passes(tmp_path: Path) -> None:
+    vee = load_scenario("vee")
+    RunFolder(tmp_path).write_plan(read_scenario_text("vee")[0], vee, plan(vee))
+    files = sorted((tmp_path / "missions").glob("*.plan"))
+    assert len(files) == len(vee.vehicles)
+    assert check(*files, "--scenario", "vee", code=0) == []
 
 
 def test_the_table_fits_80_columns_and_says_what_was_not_checked(
