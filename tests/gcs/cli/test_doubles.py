@@ -15,7 +15,7 @@ from gcs.transfers.errors import TransferError
 from sitl.services.codec import Codec
 
 SYSID = 5
-APART_S = 0.3
+APART_S = 0.1
 
 
 class Doubles:
