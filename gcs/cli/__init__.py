@@ -17,6 +17,7 @@ from gcs.cli.params import params
 from gcs.cli.plan import plan
 from gcs.cli.rehearse import rehearse
 from gcs.cli.replay import replay
+from gcs.cli.report import report
 from gcs.cli.reproduce import reproduce
 from gcs.cli.router import router
 from gcs.cli.signing import signing
@@ -33,7 +34,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, export, check, replay, bench, margin, reproduce)
+ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, report, export, check, replay, bench, margin, reproduce)
 WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status, companion)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)

@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -123,18 +123,8 @@ def measure(
     references = planned.references
     arrivals = {sysid: arrival(truth, references[sysid]) for sysid, truth in truths.items()}
     time = swarm_time(record.shifts) if record.shifts else None
-    common = flown_tracks(planned.tracks, truths, time)
-    series = Series(
-        tracks=common,
-        error=formation_error(common, edges),
-        separation_m=least_separation_m(common.flown_m),
-        references=references,
-        arrivals_s={
-            sysid: time.shown_at(end.time_s) if time is not None and end.time_s is not None else end.time_s
-            for sysid, end in arrivals.items()
-        },
-    )
-    around = [surroundings(positions, scenario) for positions in common.flown_m]
+    series = _series(planned, truths, edges, arrivals, time)
+    around = [surroundings(positions, scenario) for positions in series.tracks.flown_m]
     late = [end.time_s - references[i].duration_s for i, end in arrivals.items() if end.time_s is not None]
     arrived = [Event(end.time_s, i, "arrived") for i, end in arrivals.items() if end.time_s is not None]
     ends = [end.tick for end in arrivals.values() if end.tick is not None]
@@ -167,6 +157,33 @@ def measure(
         ),
     )
     return metrics, series
+
+
+def series_of(scenario: Scenario, plan: FormationPlan, truths: Truths, edges: Sequence[Edge], shifts: Truths) -> Series:
+    """What `measure` tells over time, by itself."""
+    planned = what_was_planned(scenario, plan)
+    arrivals = {sysid: arrival(truth, planned.references[sysid]) for sysid, truth in truths.items()}
+    return _series(planned, truths, edges, arrivals, swarm_time(shifts) if shifts else None)
+
+
+def _series(
+    planned: Planned,
+    truths: Truths,
+    edges: Sequence[Edge],
+    arrivals: Mapping[int, Arrival],
+    time: SwarmTime | None,
+) -> Series:
+    common = flown_tracks(planned.tracks, truths, time)
+    return Series(
+        tracks=common,
+        error=formation_error(common, edges),
+        separation_m=least_separation_m(common.flown_m),
+        references=planned.references,
+        arrivals_s={
+            sysid: time.shown_at(end.time_s) if time is not None and end.time_s is not None else end.time_s
+            for sysid, end in arrivals.items()
+        },
+    )
 
 
 def _vehicle(uav: UavPlan, planned_s: float, end: Arrival | None, record: FlightRecord) -> VehicleMetrics:

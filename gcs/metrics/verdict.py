@@ -1,7 +1,8 @@
-"""What fell short in a flight, for people and for the exit code."""
+"""What a flight is held to, and what fell short, for people and for the exit code."""
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from gcs.metrics.flight_limits import FlightLimits
 from gcs.metrics.metrics import FormationMetrics, Metrics, VehicleMetrics
@@ -19,51 +20,123 @@ CLIMB_RATE_M_S = 0.5
 """What lags let the climb rate overshoot."""
 
 
+class Check(NamedTuple):
+    """One thing that a flight is held to.
+
+    Attributes:
+        what: the same for all vehicles.
+        measured, limit: for people, with units; the limit with what it tolerates.
+        room: how far on the good side of that it was, in the unit of both; negative when it fell short.
+        shortfall: the line that says so.
+    """
+
+    what: str
+    measured: str
+    limit: str
+    room: float
+    shortfall: str
+
+
 def shortfalls(metrics: Metrics, scenario: Scenario) -> list[str]:
     """One line for each thing that fell short; none when all is well."""
+    return [check.shortfall for check in checks(metrics, scenario) if check.room < 0.0]
+
+
+def checks(metrics: Metrics, scenario: Scenario) -> list[Check]:
+    """All that a flight is held to, a vehicle's one by one."""
     names = {vehicle.sysid: vehicle.name for vehicle in metrics.vehicles}
     kills = kills_s(scenario)
-    lines = [line for vehicle in metrics.vehicles for line in _vehicle(vehicle, kills.get(vehicle.sysid))]
-    lines += _distances(metrics.formation, scenario)
+    found = [check for vehicle in metrics.vehicles for check in _vehicle(vehicle, kills.get(vehicle.sysid))]
+    found += _distances(metrics.formation, scenario)
     for limits in metrics.limits:
-        lines += [f"{names[limits.sysid]}: {line}" for line in _limits(limits, scenario)]
-    return lines
+        found += _limits(names[limits.sysid], limits, scenario)
+    return found
 
 
-def _vehicle(vehicle: VehicleMetrics, killed_s: float | None) -> Iterator[str]:
-    if vehicle.lost_s is not None and killed_s is not None and abs(vehicle.lost_s - killed_s) < TICK_S:
-        pass  # as the scenario has it
-    elif vehicle.lost_s is not None:
-        yield f"{vehicle.name}: lost after {vehicle.lost_s:.1f} s"
-    elif not vehicle.completed:
-        yield f"{vehicle.name}: did not arrive at its target"
-    if vehicle.items_verified != vehicle.items_uploaded:
-        yield f"{vehicle.name}: {vehicle.items_verified} of {vehicle.items_uploaded} mission items verified"
+def _vehicle(vehicle: VehicleMetrics, killed_s: float | None) -> Iterator[Check]:
+    name, lost_s = vehicle.name, vehicle.lost_s
+    as_scheduled = lost_s is not None and killed_s is not None and abs(lost_s - killed_s) < TICK_S
+    if not as_scheduled:
+        why = "did not arrive at its target" if lost_s is None else f"lost after {lost_s:.1f} s"
+        arrived = vehicle.completed and lost_s is None
+        measured = f"{name} {'arrived' if arrived else why}"
+        yield Check("arrival", measured, "at its target", 0.0 if arrived else -1.0, f"{name}: {why}")
+    uploaded, verified = vehicle.items_uploaded, vehicle.items_verified
+    if uploaded is not None or verified is not None:
+        line = f"{verified} of {uploaded} mission items verified"
+        yield Check("mission", f"{name} {line}", "all", 0.0 if verified == uploaded else -1.0, f"{name}: {line}")
 
 
-def _distances(formation: FormationMetrics, scenario: Scenario) -> Iterator[str]:
+def _distances(formation: FormationMetrics, scenario: Scenario) -> Iterator[Check]:
     limits = scenario.limits
     separation, margin, wall = formation.min_separation_m, formation.clearance_margin_m, formation.min_wall_m
-    if separation is not None and separation < limits.separation_m:
-        yield f"separation: {separation:.0f} m at the least, limits.separation_m is {limits.separation_m:g}"
-    if margin is not None and margin < -TRACKING_M:
-        yield f"clearance: {-margin:.0f} m less than limits.clearance_m asks for"
-    if wall is not None and wall < limits.obstacle_margin_m - TRACKING_M:
-        yield f"obstacles: {wall:.0f} m at the least, limits.obstacle_margin_m is {limits.obstacle_margin_m:g}"
+    if separation is not None:
+        yield Check(
+            "least separation",
+            f"{separation:.0f} m",
+            f"{limits.separation_m:g} m",
+            separation - limits.separation_m,
+            f"separation: {separation:.0f} m at the least, limits.separation_m is {limits.separation_m:g}",
+        )
+    if margin is not None:
+        yield Check(
+            "clearance above the ground",
+            f"{abs(margin):.0f} m {'more' if margin >= 0.0 else 'less'} than asked for",
+            f"{limits.clearance_m:g} m, within {TRACKING_M:g} m",
+            margin + TRACKING_M,
+            f"clearance: {-margin:.0f} m less than limits.clearance_m asks for",
+        )
+    if wall is not None:
+        yield Check(
+            "distance from obstacles",
+            f"{wall:.0f} m",
+            f"{limits.obstacle_margin_m:g} m, within {TRACKING_M:g} m",
+            wall - (limits.obstacle_margin_m - TRACKING_M),
+            f"obstacles: {wall:.0f} m at the least, limits.obstacle_margin_m is {limits.obstacle_margin_m:g}",
+        )
 
 
-def _limits(limits: FlightLimits, scenario: Scenario) -> Iterator[str]:
+def _limits(name: str, limits: FlightLimits, scenario: Scenario) -> Iterator[Check]:
     airframe = scenario.airframe
     gusts_m_s = GUST_SIGMAS * INTENSITIES_M_S[scenario.wind.gusts][0]
-    if limits.airspeed_min_m_s < airframe.airspeed_min_m_s - gusts_m_s:
-        yield f"airspeed {limits.airspeed_min_m_s:.1f} m/s, airspeed_min_m_s is {airframe.airspeed_min_m_s:g}"
-    if limits.airspeed_max_m_s > airframe.airspeed_max_m_s + gusts_m_s:
-        yield f"airspeed {limits.airspeed_max_m_s:.1f} m/s, airspeed_max_m_s is {airframe.airspeed_max_m_s:g}"
+    slow, fast = limits.airspeed_min_m_s, limits.airspeed_max_m_s
+    yield Check(
+        "lowest airspeed",
+        f"{name} {slow:.1f} m/s",
+        f"{airframe.airspeed_min_m_s:g} m/s, less {gusts_m_s:.1f} in gusts",
+        slow - (airframe.airspeed_min_m_s - gusts_m_s),
+        f"{name}: airspeed {slow:.1f} m/s, airspeed_min_m_s is {airframe.airspeed_min_m_s:g}",
+    )
+    yield Check(
+        "highest airspeed",
+        f"{name} {fast:.1f} m/s",
+        f"{airframe.airspeed_max_m_s:g} m/s, and {gusts_m_s:.1f} in gusts",
+        airframe.airspeed_max_m_s + gusts_m_s - fast,
+        f"{name}: airspeed {fast:.1f} m/s, airspeed_max_m_s is {airframe.airspeed_max_m_s:g}",
+    )
     sink, climb, turn = limits.climb_rate_min_m_s, limits.climb_rate_max_m_s, limits.turn_rate_max_deg_s
-    if sink is not None and sink < airframe.climb_rate_min_m_s - CLIMB_RATE_M_S:
-        yield f"climb rate {sink:.1f} m/s, climb_rate_min_m_s is {airframe.climb_rate_min_m_s:g}"
-    if climb is not None and climb > airframe.climb_rate_max_m_s + CLIMB_RATE_M_S:
-        yield f"climb rate {climb:.1f} m/s, climb_rate_max_m_s is {airframe.climb_rate_max_m_s:g}"
-    turn_max = math.degrees(airframe.load_factor_max * GRAVITY_M_S2 / limits.airspeed_max_m_s)
-    if turn is not None and turn > turn_max:
-        yield f"turn rate {turn:.0f} deg/s, load_factor_max allows {turn_max:.0f}"
+    if sink is not None:
+        yield Check(
+            "steepest sink",
+            f"{name} {sink:.1f} m/s",
+            f"{airframe.climb_rate_min_m_s:g} m/s, within {CLIMB_RATE_M_S:g}",
+            sink - (airframe.climb_rate_min_m_s - CLIMB_RATE_M_S),
+            f"{name}: climb rate {sink:.1f} m/s, climb_rate_min_m_s is {airframe.climb_rate_min_m_s:g}",
+        )
+    if climb is not None:
+        yield Check(
+            "steepest climb",
+            f"{name} {climb:.1f} m/s",
+            f"{airframe.climb_rate_max_m_s:g} m/s, within {CLIMB_RATE_M_S:g}",
+            airframe.climb_rate_max_m_s + CLIMB_RATE_M_S - climb,
+            f"{name}: climb rate {climb:.1f} m/s, climb_rate_max_m_s is {airframe.climb_rate_max_m_s:g}",
+        )
+    if turn is not None:
+        most = math.degrees(airframe.load_factor_max * GRAVITY_M_S2 / fast)
+        yield Check(
+            "fastest turn",
+            f"{name} {turn:.0f} deg/s",
+            f"{most:.0f} deg/s",
+            most - turn,
+            f"{name}: turn rate {turn:.0f} deg/s, load_factor_max allows {most:.0f}",
+        )
