@@ -20,6 +20,7 @@ from gcs.cli.replay import replay
 from gcs.cli.report import report
 from gcs.cli.reproduce import reproduce
 from gcs.cli.router import router
+from gcs.cli.schema import schema
 from gcs.cli.signing import signing
 from gcs.cli.sim import sim
 from gcs.cli.status import status
@@ -34,7 +35,22 @@ app = typer.Typer(
     rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-ON_THIS_MACHINE = (demo, plan, sim, router, fly, rehearse, report, export, check, replay, bench, margin, reproduce)
+ON_THIS_MACHINE = (
+    demo,
+    plan,
+    sim,
+    router,
+    fly,
+    rehearse,
+    report,
+    export,
+    check,
+    replay,
+    bench,
+    margin,
+    reproduce,
+    schema,
+)
 WITH_VEHICLES = (upload, download, clear, arm, disarm, mode, rtl, abort, status, companion)
 for command in ON_THIS_MACHINE + WITH_VEHICLES:
     app.command()(command)

@@ -31,18 +31,26 @@ class WindModel(Keys):
     """What blows, and what the planner was told. East and north components."""
 
     steady_m_s: Vector = (0.0, 0.0)
+    """What blows all the time."""
     forecast_m_s: Vector = (0.0, 0.0)
+    """What the planner reckons with."""
     gusts: Literal["none", "light", "moderate"] = "light"
+    """Dryden gusts on top."""
 
 
 class LimitsModel(Keys):
     """The constraints (12), safe distances and penalties (5), (9)."""
 
     altitude_max_m: Positive
+    """Of paths, above z = 0."""
     leg_min_m: Positive = 300.0
+    """Between waypoints."""
     leg_max_m: Positive = 8000.0
+    """Between waypoints."""
     turn_max_deg: Annotated[Number, Field(gt=0, lt=180)] = 60.0
+    """At a waypoint."""
     climb_max_deg: Annotated[Number, Field(gt=0, lt=60)] = 8.0
+    """Of a leg, up and down."""
     separation_m: Positive
     """d_safe between UAVs."""
     obstacle_margin_m: NotNegative = 100.0
@@ -50,6 +58,7 @@ class LimitsModel(Keys):
     clearance_m: NotNegative
     """Above ground in flight; after launch it builds up evenly over `climb_out_m`."""
     climb_out_m: Positive = 2000.0
+    """Of path, from the launch."""
     collision_penalty_km: Positive = 100.0
     """P_c of (9)."""
     terrain_penalty_km: Positive = 100.0
@@ -62,10 +71,13 @@ class SearchModel(Keys):
     """How paths are searched for."""
 
     method: Literal["skein", "pso", "qpso", "hybrid", "published"] = "skein"
+    """`pso`, `qpso` and `hybrid` are the paper's, `published` its hybrid as printed."""
     waypoints: Annotated[int, Field(strict=True, ge=1, le=60)] = 12
     """Interior waypoints of each path."""
     population: Annotated[int, Field(strict=True, ge=4)] = 150
+    """Of the paper's methods."""
     iterations: Count = 200
+    """Of the paper's methods."""
     reading: Literal["graded", "published"] = "graded"
     """Of the penalties (MODEL, section 3)."""
 
@@ -84,8 +96,11 @@ class Scenario(Keys):
     """A whole scenario file."""
 
     name: Annotated[str, Field(min_length=1, pattern=r"^[\w-]+$")]
+    """In all that is written of it."""
     description: str = ""
+    """For people."""
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 1
+    """Of search, gusts and channels."""
     origin: OriginModel
     area: AreaModel
     terrain: TerrainModel = TerrainModel()

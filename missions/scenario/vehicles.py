@@ -12,16 +12,22 @@ class SlotModel(Keys):
     """A place in a formation that follows `route`."""
 
     behind_m: Number
+    """The point that follows the route."""
     left_m: Number
+    """Of that point; to the right, negative."""
 
 
 class VehicleModel(Keys):
     """One vehicle: with `origin` and `target`, or with a `slot` on the route."""
 
     name: Annotated[str, Field(min_length=1, pattern=r"^[\w-]+$")]
+    """In all that is written of it."""
     sysid: Annotated[int, Field(strict=True, ge=1, le=250)]
+    """MAVLink's, one for each vehicle."""
     origin: Point | None = None
+    """Where it starts; lifted to the ground where that is higher."""
     target: Point | None = None
+    """Where it goes."""
     slot: SlotModel | None = None
 
     @model_validator(mode="after")
@@ -39,8 +45,11 @@ class RouteModel(Keys):
     points: Annotated[tuple[Point, ...], Field(min_length=2)]
     """The straight line where only the ends are given: slots start and end beside it."""
     origin: Point | None = None
+    """With `target`, in place of `points`: a route is searched between them."""
     target: Point | None = None
+    """See `origin`."""
     ground_speed_m_s: Positive
+    """Of the point that the slots follow."""
 
     @model_validator(mode="before")
     @classmethod
@@ -62,6 +71,7 @@ class ShapeModel(Keys):
     """A formation's pattern, from which vehicles' slots follow."""
 
     pattern: Pattern
+    """With `custom`, slots stand at the vehicles."""
     count: Annotated[int, Field(strict=True, ge=1, le=250)] | None = None
     """Vehicles; as many as are listed unless given."""
     spacing_m: Positive | None = None
