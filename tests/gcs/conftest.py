@@ -15,6 +15,7 @@ import pytest
 
 from gcs.flight_record import Event, FlightRecord, Timing
 from missions.commands import Command, Frame
+from missions.environment import ground_height_m
 from missions.frame import LocalFrame
 from missions.mission import Mission, MissionItem
 from missions.reference import Reference
@@ -113,6 +114,22 @@ def straight_plan() -> Callable[[Scenario], FormationPlan]:
         return FormationPlan(scenario.name, 7, "by hand", uavs, compile_s=0.1, plan_s=0.2)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def amsl_m() -> Callable[[MissionItem, MissionItem, Scenario], float]:
+    """What an autopilot takes an altitude for, in metres above the sea: given item, home, and whose ground it knows."""
+
+    def amsl(item: MissionItem, home: MissionItem, scenario: Scenario) -> float:
+        if item.frame == Frame.GLOBAL_RELATIVE_ALT:
+            return home.alt_m + item.alt_m
+        if item.frame == Frame.GLOBAL_TERRAIN_ALT:
+            x, y = scenario.frame.from_e7(item.lat_e7, item.lon_e7)
+            return item.alt_m + ground_height_m(x, y, scenario.environment.terrain) + scenario.origin.alt_m
+        assert item.frame == Frame.GLOBAL
+        return item.alt_m
+
+    return amsl
 
 
 def _straight_uav(scenario: Scenario, vehicle: VehicleModel) -> UavPlan:

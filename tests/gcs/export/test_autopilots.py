@@ -11,8 +11,7 @@ from gcs.export import Exported, ExportOptions, export
 from gcs.vehicle_plans import vehicle_plans
 from missions.altitude_frame import AltitudeFrame
 from missions.autopilot import Autopilot
-from missions.commands import PLACES, Command, Frame
-from missions.environment import ground_height_m
+from missions.commands import PLACES, Command
 from missions.errors import InputError
 from missions.fence import FenceCircle, FencePolygon
 from missions.formats.qgc_plan_reader import read_plan
@@ -27,6 +26,7 @@ DIALECTS = [
     *((Autopilot.px4, altitude) for altitude in (AltitudeFrame.amsl, AltitudeFrame.relative)),
 ]
 Write = Callable[..., Exported]
+AmslM = Callable[[MissionItem, MissionItem, Scenario], float]
 
 
 @pytest.fixture
@@ -34,22 +34,12 @@ def write(scenario: Scenario, formation: FormationPlan, tmp_path: Path) -> Write
     return lambda *options, **more: export(scenario, formation, ExportOptions(*options, **more), tmp_path)
 
 
-def amsl_m(item: MissionItem, home: MissionItem, scenario: Scenario) -> float:
-    """What an autopilot takes an altitude for."""
-    if item.frame == Frame.GLOBAL_RELATIVE_ALT:
-        return home.alt_m + item.alt_m
-    if item.frame == Frame.GLOBAL_TERRAIN_ALT:
-        x, y = scenario.frame.from_e7(item.lat_e7, item.lon_e7)
-        return item.alt_m + ground_height_m(x, y, scenario.environment.terrain) + scenario.origin.alt_m
-    assert item.frame == Frame.GLOBAL
-    return item.alt_m
-
-
 @pytest.mark.parametrize(("autopilot", "altitude"), DIALECTS)
 def test_both_formats_hold_the_mission_that_was_planned(
     write: Write,
     scenario: Scenario,
     formation: FormationPlan,
+    amsl_m: AmslM,
     autopilot: Autopilot,
     altitude: AltitudeFrame,
 ) -> None:

@@ -5,17 +5,24 @@ import selectors
 import socket
 import threading
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.bench.mavproxy_station import MavProxy
-from gcs.bench.mavsdk_station import MavsdkStation
+from gcs.bench.mavsdk_station import MavsdkStation, plugin
 from gcs.bench.peers import LOOPBACK
+from missions.autopilot import Autopilot
+from sitl.services.codec import Codec
 
+HEARTBEAT_S = 0.2
 MakeMavsdk = Callable[[str], MavsdkStation]
 MakeMavProxy = Callable[[str], MavProxy]
 MakeRelay = Callable[..., "LossyRelay"]
+MakeMissions = Callable[[Autopilot], Any]
 
 
 @pytest.fixture
@@ -89,5 +96,47 @@ def relay() -> Iterator[MakeRelay]:
 
         def make(endpoint_port: int, lost: Callable[[bytes], bool]) -> LossyRelay:
             return stack.enter_context(contextlib.closing(LossyRelay(endpoint_port, lost)))
+
+        yield make
+
+
+class HeartbeatSource:
+    """A plane of an autopilot that does nothing but send heartbeats, to whoever connects."""
+
+    def __init__(self, autopilot: Autopilot) -> None:
+        self._server = socket.create_server((LOOPBACK, 0))
+        self.port = int(self._server.getsockname()[1])
+        self._stopped = threading.Event()
+        self._heartbeat = mavlink.MAVLink_heartbeat_message(
+            mavlink.MAV_TYPE_FIXED_WING, autopilot.mav_autopilot, 0, 0, mavlink.MAV_STATE_STANDBY, 3
+        )
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def close(self) -> None:
+        self._stopped.set()
+        self._server.shutdown(socket.SHUT_RDWR)
+        self._server.close()
+        self._thread.join()
+
+    def _run(self) -> None:
+        codec = Codec(1, 1)
+        with contextlib.suppress(OSError):
+            connection, _ = self._server.accept()
+            with connection:
+                while not self._stopped.wait(HEARTBEAT_S):
+                    connection.sendall(codec.pack(self._heartbeat))
+
+
+@pytest.fixture(scope="module")
+def raw_missions() -> Iterator[MakeMissions]:
+    """MAVSDK's raw missions of a plane, by its autopilot: one station for each that is asked for."""
+    with contextlib.ExitStack() as stack:
+
+        @cache
+        def make(autopilot: Autopilot) -> Any:
+            source = stack.enter_context(contextlib.closing(HeartbeatSource(autopilot)))
+            station = stack.enter_context(MavsdkStation(f"tcpout://{LOOPBACK}:{source.port}"))
+            return plugin("mission_raw", station.wait_for([1])[0])
 
         yield make

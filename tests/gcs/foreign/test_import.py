@@ -1,16 +1,12 @@
 """MAVSDK imports what is exported, without a word, as the items that each autopilot is to be sent."""
 
-import contextlib
-import socket
-import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from gcs.bench.mavsdk_station import from_raw_items, plugin
+from gcs.bench.mavsdk_station import from_raw_items
 from missions.altitude_frame import AltitudeFrame
 from missions.autopilot import Autopilot
 from missions.commands import Command, Frame
@@ -20,56 +16,14 @@ from missions.formats.qgc_plan import write_plan
 from missions.formats.waypoints import write_waypoints
 from missions.mission import Mission, MissionItem
 from missions.vehicle_plan import Plan
-from sitl.services.codec import Codec
 
 MakeMissions = Callable[[Autopilot], Any]
-HEARTBEAT_S = 0.2
 AREA = FencePolygon(True, ((464_000_000, 112_000_000), (464_000_000, 114_000_000), (466_000_000, 113_000_000)))
 FENCE = Fence((AREA, FenceCircle(False, (465_200_000, 113_400_000), 1500.0)))
 DIALECTS = [
     *((Autopilot.ardupilot, altitude) for altitude in AltitudeFrame),
     *((Autopilot.px4, altitude) for altitude in (AltitudeFrame.amsl, AltitudeFrame.relative)),
 ]
-
-
-class HeartbeatSource:
-    """A plane of an autopilot that does nothing but send heartbeats, to whoever connects."""
-
-    def __init__(self, autopilot: Autopilot) -> None:
-        self._server = socket.create_server(("127.0.0.1", 0))
-        self.port = int(self._server.getsockname()[1])
-        self._stopped = threading.Event()
-        self._heartbeat = mavlink.MAVLink_heartbeat_message(
-            mavlink.MAV_TYPE_FIXED_WING, autopilot.mav_autopilot, 0, 0, mavlink.MAV_STATE_STANDBY, 3
-        )
-        self._thread = threading.Thread(target=self._run)
-        self._thread.start()
-
-    def close(self) -> None:
-        self._stopped.set()
-        self._server.shutdown(socket.SHUT_RDWR)
-        self._server.close()
-        self._thread.join()
-
-    def _run(self) -> None:
-        codec = Codec(1, 1)
-        with contextlib.suppress(OSError):
-            connection, _ = self._server.accept()
-            with connection:
-                while not self._stopped.wait(HEARTBEAT_S):
-                    connection.sendall(codec.pack(self._heartbeat))
-
-
-@pytest.fixture
-def missions(mavsdk: Any) -> Iterator[MakeMissions]:
-    """MAVSDK's raw missions of a plane, by its autopilot."""
-    with contextlib.ExitStack() as stack:
-
-        def make(autopilot: Autopilot) -> Any:
-            source = stack.enter_context(contextlib.closing(HeartbeatSource(autopilot)))
-            return plugin("mission_raw", mavsdk(f"tcpout://127.0.0.1:{source.port}").wait_for([1])[0])
-
-        yield make
 
 
 @pytest.fixture
@@ -88,11 +42,11 @@ def places(rally: tuple[MissionItem, ...]) -> list[tuple[int, int, int, float]]:
 
 @pytest.mark.parametrize(("autopilot", "altitude"), DIALECTS)
 def test_a_plan_is_imported_as_the_items_on_the_wire(
-    missions: MakeMissions, plan: Plan, tmp_path: Path, autopilot: Autopilot, altitude: AltitudeFrame
+    raw_missions: MakeMissions, plan: Plan, tmp_path: Path, autopilot: Autopilot, altitude: AltitudeFrame
 ) -> None:
     written = in_dialect(plan, autopilot, altitude, lambda *_: 900.0)
     write_plan(written, tmp_path / "one.plan", cruise_speed_m_s=25.0, autopilot=autopilot)
-    imported = missions(autopilot).import_qgroundcontrol_mission(str(tmp_path / "one.plan"))
+    imported = raw_missions(autopilot).import_qgroundcontrol_mission(str(tmp_path / "one.plan"))
     assert from_raw_items(imported.mission_items) == wire_items(written.mission, autopilot)
     assert parse_fence(from_raw_items(imported.geofence_items)) == written.fence
     assert places(from_raw_items(imported.rally_items)) == places(written.rally)
@@ -100,11 +54,11 @@ def test_a_plan_is_imported_as_the_items_on_the_wire(
 
 @pytest.mark.parametrize("autopilot", Autopilot)
 def test_waypoints_are_imported_but_their_home_as_an_item(
-    missions: MakeMissions, plan: Plan, tmp_path: Path, autopilot: Autopilot
+    raw_missions: MakeMissions, plan: Plan, tmp_path: Path, autopilot: Autopilot
 ) -> None:
     """MAVSDK knows no home in this format: to an ArduPilot it adds another. docs/export.md says to use .plan."""
     written = in_dialect(plan, autopilot, AltitudeFrame.relative, lambda *_: 900.0)
     write_waypoints(written.mission, tmp_path / "one.waypoints")
-    imported = missions(autopilot).import_mission_planner_mission(str(tmp_path / "one.waypoints"))
+    imported = raw_missions(autopilot).import_mission_planner_mission(str(tmp_path / "one.waypoints"))
     added = (plan.mission.home,) if autopilot is Autopilot.ardupilot else ()
     assert from_raw_items(imported.mission_items) == (*added, *written.mission)
