@@ -54,6 +54,9 @@ MavlinkOption = Annotated[
 RehearsalOption = Annotated[
     bool, typer.Option("--rehearsal", help="Measure how fast nine aircraft are rehearsed, and flown, instead.")
 ]
+ChainOption = Annotated[
+    bool, typer.Option("--chain", help="Measure how far positions are moved from plan to telemetry, instead.")
+]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and figures.")]
 UpdateOption = Annotated[bool, typer.Option("--update-best", help="Keep what is better than the best-known paths.")]
 
@@ -74,6 +77,7 @@ def bench(
     growth: GrowthOption = False,
     mavlink: MavlinkOption = False,
     rehearsal: RehearsalOption = False,
+    chain: ChainOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare searches on many problems, at equal evaluations and at equal CPU time.
@@ -93,6 +97,11 @@ def bench(
             from gcs.cli.bench_rehearsal import bench_rehearsal
 
             bench_rehearsal(quick, json)
+            return
+        if chain:
+            from gcs.cli.bench_chain import bench_chain
+
+            bench_chain(quick, json)
             return
         if growth:
             plan_many(quick, out, json)
