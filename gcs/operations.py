@@ -1,18 +1,26 @@
-"""What an operator asks of a vehicle: take a plan, say what it holds, change its mode, come home."""
+"""What an operator asks of a vehicle: take a plan, say what it holds, change its mode, come home.
+
+Plans here begin with home, whatever the autopilot; the vehicle gets and gives them in its own form.
+"""
 
 import asyncio
 from collections.abc import Callable
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from gcs.transfers.command import disarm, set_mode
+from gcs.flight_modes import custom_mode
+from gcs.transfers.command import command, disarm, set_mode
 from gcs.transfers.errors import TransferError
 from gcs.transfers.plans import download, upload_and_verify
 from gcs.vehicle_link import VehicleLink
+from missions.autopilot import Autopilot
+from missions.dialect import wire_items
 from missions.errors import InputError
 from missions.fence import NO_FENCE, fence_items, parse_fence
-from missions.mission import Mission
+from missions.formats.qgc_plan import home_item
+from missions.mission import Mission, MissionItem
 from missions.plan_type import PlanType
+from missions.px4 import mission_of_px4, px4_mission
 from missions.vehicle_plan import Plan
 from sitl.modes import Mode
 from sitl.services.peer import Message
@@ -28,9 +36,10 @@ async def upload_plan(vehicle: VehicleLink, plan: Plan) -> dict[str, int]:
         The number of items that the vehicle holds now, by what they are.
 
     Raises:
-        TransferError: a transfer failed, or the vehicle holds something else.
+        TransferError: the autopilot would not take it, a transfer failed, or the vehicle holds something else.
     """
-    counts = {"mission": await upload_and_verify(vehicle, PlanType.MISSION, plan.mission.items)}
+    items = _mission_on_wire(vehicle, plan.mission)
+    counts = {"mission": await upload_and_verify(vehicle, PlanType.MISSION, items)}
     if plan.fence != NO_FENCE:
         counts["fence"] = await upload_and_verify(vehicle, PlanType.FENCE, fence_items(plan.fence))
     if plan.rally:
@@ -44,15 +53,39 @@ async def download_plan(vehicle: VehicleLink) -> Plan:
     Raises:
         TransferError: a transfer failed, or what the vehicle holds is no plan.
     """
-    mission = await download(vehicle, PlanType.MISSION)
+    items = await download(vehicle, PlanType.MISSION)
     fence = await download(vehicle, PlanType.FENCE)
     rally = await download(vehicle, PlanType.RALLY)
-    if not mission:
+    if vehicle.autopilot is Autopilot.px4:
+        mission = mission_of_px4(items, await home_of(vehicle))
+    elif items:
+        mission = Mission(items)
+    else:
         raise TransferError(f"{vehicle}: holds no home; wait until it has a position")
     try:
-        return Plan(Mission(mission), parse_fence(fence), rally)
+        return Plan(mission, parse_fence(fence), rally)
     except InputError as error:
         raise TransferError(f"{vehicle}: {error}") from None
+
+
+async def home_of(vehicle: VehicleLink) -> MissionItem:
+    """Where a vehicle's home is, by its HOME_POSITION. Raises TransferError when it does not tell."""
+    if "HOME_POSITION" not in vehicle.latest:
+        await command(vehicle, mavlink.MAV_CMD_REQUEST_MESSAGE, float(mavlink.MAVLINK_MSG_ID_HOME_POSITION))
+    home = vehicle.latest.get("HOME_POSITION")  # it comes before its ACK
+    if home is None:
+        raise TransferError(f"{vehicle}: has no home; wait until it has a position")
+    return home_item(home.latitude, home.longitude, home.altitude / 1000.0)
+
+
+def _mission_on_wire(vehicle: VehicleLink, mission: Mission) -> tuple[MissionItem, ...]:
+    """A mission as the vehicle's autopilot has it. Raises TransferError when that would not take it."""
+    if vehicle.autopilot is Autopilot.px4:
+        try:
+            mission = px4_mission(mission)
+        except InputError as error:
+            raise TransferError(f"{vehicle}: {error}") from None
+    return wire_items(mission, vehicle.autopilot)
 
 
 def is_armed(vehicle: VehicleLink) -> bool:
@@ -61,8 +94,13 @@ def is_armed(vehicle: VehicleLink) -> bool:
 
 
 def is_flying(vehicle: VehicleLink) -> bool:
-    """Whether its last HEARTBEAT said that it is in the air."""
-    return bool(is_armed(vehicle) and vehicle.latest["HEARTBEAT"].system_status != mavlink.MAV_STATE_STANDBY)
+    """Whether it says that it is in the air: a PX4 in EXTENDED_SYS_STATE, others in HEARTBEAT."""
+    if vehicle.autopilot is Autopilot.px4:
+        state = vehicle.latest.get("EXTENDED_SYS_STATE")
+        grounded = state is not None and state.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND
+    else:
+        grounded = vehicle.latest["HEARTBEAT"].system_status == mavlink.MAV_STATE_STANDBY
+    return is_armed(vehicle) and not grounded
 
 
 async def bring_home(vehicle: VehicleLink) -> str:
@@ -80,15 +118,15 @@ async def bring_home(vehicle: VehicleLink) -> str:
         await disarm(vehicle)
         await heartbeat_shows(vehicle, "disarmed", lambda heartbeat: not _armed(heartbeat))
         return "on the ground, disarmed now"
-    await set_mode(vehicle, Mode.RTL)
-    await heartbeat_shows(vehicle, "mode RTL", lambda heartbeat: heartbeat.custom_mode == Mode.RTL)
+    await change_mode(vehicle, Mode.RTL)
     return "flying home (RTL)"
 
 
 async def change_mode(vehicle: VehicleLink, mode: Mode) -> None:
     """Change a vehicle's mode and see it in a HEARTBEAT. Raises TransferError."""
     await set_mode(vehicle, mode)
-    await heartbeat_shows(vehicle, f"mode {mode.name}", lambda heartbeat: heartbeat.custom_mode == mode)
+    number = custom_mode(mode, vehicle.autopilot)
+    await heartbeat_shows(vehicle, f"mode {mode.name}", lambda heartbeat: heartbeat.custom_mode == number)
 
 
 async def heartbeat_shows(vehicle: VehicleLink, what: str, shown: Callable[[Message], bool]) -> None:

@@ -9,6 +9,7 @@ from typing import TypeAlias
 from gcs.status_lines import StatusLines
 from gcs.tlog import TelemetryLog
 from gcs.transfers.acquaintance import Acquaintance
+from missions.autopilot import Autopilot
 from sitl.services.peer import Message, Peer
 from sitl.services.received import MAGIC_V2, SIGNED
 from sitl.services.signing import Signer, Signing
@@ -111,6 +112,13 @@ class VehicleLink:
         heartbeat = self.latest.get("HEARTBEAT")
         frame = heartbeat.get_msgbuf() if heartbeat is not None else bytes(3)
         return bool(frame[0] == MAGIC_V2 and frame[2] & SIGNED)
+
+    @property
+    def autopilot(self) -> Autopilot:
+        """Whose dialect it speaks, by its heartbeat: ArduPilot's, unless it is a PX4."""
+        heartbeat = self.latest.get("HEARTBEAT")
+        px4 = heartbeat is not None and heartbeat.autopilot == Autopilot.px4.mav_autopilot
+        return Autopilot.px4 if px4 else Autopilot.ardupilot
 
     @property
     def pace(self) -> float:

@@ -5,10 +5,10 @@ from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from gcs.flight_modes import mode_name
 from gcs.transfers.command import command
 from gcs.transfers.errors import TransferError
 from gcs.vehicle_link import VehicleLink
-from sitl.modes import Mode
 from sitl.services.opaque_id import received_opaque_ids
 
 _ASKED = {
@@ -57,7 +57,7 @@ def _report(vehicle: VehicleLink, answers: bool) -> dict[str, Any]:
         "address": str(vehicle.peer),
         "answers": answers,
         "signs": vehicle.signs,
-        "mode": mode_name(heartbeat.custom_mode),
+        "mode": mode_name(heartbeat.custom_mode, vehicle.autopilot),
         "armed": bool(heartbeat.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED),
         "landed_state": _LANDED.get(state.landed_state) if state else None,
         "lat_deg": position.lat / 1e7 if position else None,
@@ -74,8 +74,3 @@ def _report(vehicle: VehicleLink, answers: bool) -> dict[str, Any]:
         "heard_s_ago": round(time.monotonic() - vehicle.heard_at_s, 3),
         "texts": vehicle.texts,
     }
-
-
-def mode_name(custom_mode: int) -> str:
-    """ArduPlane's name of a mode, its number where Skein has no such mode."""
-    return Mode(custom_mode).name if custom_mode in set(Mode) else f"mode {custom_mode}"

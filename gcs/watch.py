@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from gcs.flight_modes import mode_name
 from gcs.flight_record import Event
 from gcs.vehicle_link import VehicleLink
 from sitl.child import Endpoint
-from sitl.modes import Mode
 
 PERIOD_S = 0.1
 OVERTIME_S = 120.0
@@ -60,7 +60,7 @@ class VehicleStatus:
         """Take over the newest telemetry."""
         self.time_s = link.simulated_ms / 1000.0
         if heartbeat := link.latest.get("HEARTBEAT"):
-            self.mode = Mode(heartbeat.custom_mode).name
+            self.mode = mode_name(heartbeat.custom_mode, link.autopilot)
         if hud := link.latest.get("VFR_HUD"):
             self.airspeed_m_s, self.altitude_m = hud.airspeed, hud.alt
         if navigation := link.latest.get("NAV_CONTROLLER_OUTPUT"):

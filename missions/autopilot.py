@@ -13,3 +13,8 @@ class Autopilot(StrEnum):
     def mav_autopilot(self) -> int:
         """Its MAV_AUTOPILOT number: in heartbeats, and the `firmwareType` of a .plan file."""
         return {Autopilot.ardupilot: 3, Autopilot.px4: 12}[self]
+
+    @property
+    def home_is_item_0(self) -> bool:
+        """Whether missions on the wire begin with home; otherwise with the first item that is flown."""
+        return self is Autopilot.ardupilot

@@ -6,7 +6,7 @@ from missions.altitude_frame import AltitudeFrame, GroundAmsl, in_altitude_frame
 from missions.autopilot import Autopilot
 from missions.errors import InputError
 from missions.mission import Mission, MissionItem
-from missions.px4 import px4_items, px4_mission
+from missions.px4 import px4_items, px4_kept, px4_mission
 from missions.vehicle_plan import Plan
 
 
@@ -33,4 +33,9 @@ def in_dialect(plan: Plan, autopilot: Autopilot, altitude: AltitudeFrame, ground
 
 def wire_items(mission: Mission, autopilot: Autopilot) -> tuple[MissionItem, ...]:
     """The items of an upload: ArduPilot has home as item 0, PX4 has not."""
-    return px4_items(mission) if autopilot is Autopilot.px4 else mission.items
+    return mission.items if autopilot.home_is_item_0 else px4_items(mission)
+
+
+def as_kept(item: MissionItem, autopilot: Autopilot) -> MissionItem:
+    """An item as the autopilot gives it back: what has no meaning to PX4 it does not keep."""
+    return px4_kept(item) if autopilot is Autopilot.px4 else item

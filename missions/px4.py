@@ -1,6 +1,7 @@
 """What PX4 wants of a fixed wing's mission: the checks of its navigator, and what it stores."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from missions.altitude_frame import altitudes_amsl_m
@@ -19,6 +20,21 @@ _WITHOUT_PLACE = frozenset(
 )
 _REFUSED = frozenset({Command.NAV_LOITER_TURNS})
 _APPROACHES = frozenset({Command.NAV_WAYPOINT, Command.NAV_LOITER_TO_ALT})
+
+_VTOL_TAKEOFF, _VTOL_LAND = 84, 85
+_KEPT = {
+    int(Command.NAV_WAYPOINT): (1, 2, 4),
+    int(Command.NAV_LOITER_UNLIM): (3, 4),
+    int(Command.NAV_LOITER_TIME): (1, 2, 3, 4),
+    int(Command.NAV_LAND): (2, 4),
+    int(Command.NAV_TAKEOFF): (4,),
+    int(Command.NAV_LOITER_TO_ALT): (1, 2, 4),
+    _VTOL_TAKEOFF: (4,),
+    _VTOL_LAND: (4,),
+}
+"""The parameters that PX4 keeps of items with a place (its mavlink_mission.cpp); of items in frame MISSION all."""
+_FLAGS = {int(Command.NAV_LOITER_TIME): (2, 4), int(Command.NAV_LOITER_TO_ALT): (1, 4)}
+"""Those of them of which it keeps whether they are positive; param4 of all others is a heading."""
 
 
 def px4_mission(mission: Mission) -> Mission:
@@ -50,6 +66,27 @@ def px4_items(mission: Mission) -> tuple[MissionItem, ...]:
         replace(item, param1=item.param1 - 1.0) if item.command == Command.DO_JUMP else item
         for item in mission.items[1:]
     )
+
+
+def mission_of_px4(items: Sequence[MissionItem], home: MissionItem) -> Mission:
+    """What PX4 holds as a mission that begins with home, and whose jumps count it: the reverse of `px4_items`."""
+    own = (replace(item, param1=item.param1 + 1.0) if item.command == Command.DO_JUMP else item for item in items)
+    return Mission((home, *own))
+
+
+def px4_kept(item: MissionItem) -> MissionItem:
+    """An item as PX4 gives it back."""
+    kept = _KEPT.get(item.command)
+    if kept is None or item.frame == Frame.MISSION:
+        return item
+    flags = _FLAGS.get(item.command, ())
+    params = [value if number in kept else 0.0 for number, value in enumerate(item.params, start=1)]
+    for number in flags:
+        params[number - 1] = float(params[number - 1] > 0.0)
+    if 4 not in flags:
+        params[3] = round(params[3], 3) % 360.0
+    first, second, third, fourth = params
+    return replace(item, param1=first, param2=second, param3=third, param4=fourth)
 
 
 def _no_ground(lat_e7: int, lon_e7: int) -> float:

@@ -46,7 +46,7 @@ def download(
         async def save(one: "VehicleLink") -> dict[str, Any]:
             plan = await download_plan(one)
             path = out / f"{one.sysid}.plan"
-            write_plan(plan, path, cruise_speed_m_s=CRUISE_SPEED_M_S)
+            write_plan(plan, path, cruise_speed_m_s=CRUISE_SPEED_M_S, autopilot=one.autopilot)
             counts = {"mission": len(plan.mission), "fence": len(plan.fence.areas), "rally": len(plan.rally)}
             return {"file": str(path), **counts}
 

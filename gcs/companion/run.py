@@ -8,6 +8,7 @@ from functools import cached_property
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.companion.companion import Companion
+from gcs.flight_modes import custom_mode
 from gcs.transfers.command import command_long, send_command
 from gcs.transfers.errors import TransferError
 from gcs.vehicle_link import VehicleLink
@@ -17,7 +18,6 @@ from planner.formation_plan import FormationPlan
 from sitl.formation.correction import Correction
 from sitl.formation.graph import edges, neighbour_weights
 from sitl.modes import Mode
-from sitl.services.peer import Message
 
 TELEMETRY_HZ = 5
 TELEMETRY = (mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT, mavlink.MAVLINK_MSG_ID_VFR_HUD)
@@ -128,8 +128,7 @@ class _SpeedOrders:
 
     def ask(self, airspeed_m_s: float) -> None:
         """Have the vehicle fly at an airspeed, if it flies its mission."""
-        heartbeat = self._vehicle.latest.get("HEARTBEAT")
-        if not in_auto(heartbeat):
+        if not _in_auto(self._vehicle):
             return
         self._wanted = airspeed_m_s
         if self._task is None or self._task.done():
@@ -158,9 +157,10 @@ class _SpeedOrders:
             self._announce(line)
 
 
-def in_auto(heartbeat: Message | None) -> bool:
+def _in_auto(vehicle: VehicleLink) -> bool:
     """Whether a vehicle flies its mission, as far as its mode says."""
-    return heartbeat is not None and heartbeat.custom_mode == Mode.AUTO
+    heartbeat = vehicle.latest.get("HEARTBEAT")
+    return heartbeat is not None and heartbeat.custom_mode == custom_mode(Mode.AUTO, vehicle.autopilot)
 
 
 async def _request_telemetry(vehicle: VehicleLink, announce: Announce) -> None:

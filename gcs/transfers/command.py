@@ -4,11 +4,13 @@ from collections.abc import Callable
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
+from gcs.flight_modes import mode_params
 from gcs.transfers.acquaintance import Acquaintance
 from gcs.transfers.errors import TransferError
 from gcs.transfers.run import run
 from gcs.transfers.transfer import Transfer
 from gcs.vehicle_link import VehicleLink
+from missions.errors import InputError
 from missions.mission import MissionItem
 from sitl.modes import Mode
 from sitl.services.peer import Message
@@ -139,8 +141,12 @@ async def disarm(vehicle: VehicleLink, *, force: bool = False) -> None:
 
 async def set_mode(vehicle: VehicleLink, mode: Mode) -> None:
     """Change to a mode; raises TransferError with the vehicle's reason when it refuses."""
+    try:
+        params = mode_params(mode, vehicle.autopilot)
+    except InputError as error:
+        raise TransferError(f"{vehicle}: {error}") from None
     custom = float(mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED)
-    await must(vehicle, f"mode {mode.name}", command_long(mavlink.MAV_CMD_DO_SET_MODE, custom, float(mode)))
+    await must(vehicle, f"mode {mode.name}", command_long(mavlink.MAV_CMD_DO_SET_MODE, custom, *params))
 
 
 def _name(number: int) -> str:

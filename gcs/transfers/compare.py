@@ -3,6 +3,8 @@
 import math
 from collections.abc import Mapping, Sequence
 
+from missions.autopilot import Autopilot
+from missions.dialect import as_kept
 from missions.mission import MissionItem
 from missions.plan_type import PlanType
 
@@ -33,19 +35,26 @@ _TOLERANCES: Mapping[PlanType, Mapping[str, float]] = {
 """The fields that a plan of each type consists of, and how much they may differ."""
 
 
-def differences(plan_type: PlanType, sent: Sequence[MissionItem], held: Sequence[MissionItem]) -> list[str]:
+def differences(
+    plan_type: PlanType,
+    sent: Sequence[MissionItem],
+    held: Sequence[MissionItem],
+    autopilot: Autopilot = Autopilot.ardupilot,
+) -> list[str]:
     """What differs, a line each, with item and field; empty when the vehicle holds what was sent.
 
-    Item 0 of a mission is the vehicle's own home, which replaces the one sent, and is not compared.
+    Item 0 of an ArduPilot's mission is the vehicle's own home, which replaces the one sent, and is not compared; nor is
+    what an autopilot has no use for, and does not keep.
     """
-    first = 1 if plan_type == PlanType.MISSION else 0
+    first = 1 if plan_type == PlanType.MISSION and autopilot.home_is_item_0 else 0
     lines = []
     if max(len(sent), first) != max(len(held), first):
         lines.append(f"{len(held)} items held, {len(sent)} sent")
     tolerances = _TOLERANCES[plan_type]
     for seq, (wanted, found) in enumerate(zip(sent[first:], held[first:], strict=False), start=first):
         if wanted != found:
-            lines += [f"item {seq}: {line}" for line in _item_differences(wanted, found, tolerances)]
+            kept, given = as_kept(wanted, autopilot), as_kept(found, autopilot)
+            lines += [f"item {seq}: {line}" for line in _item_differences(kept, given, tolerances)]
     return lines
 
 

@@ -40,8 +40,9 @@ class PlanUpload(PlanTransfer[Uploaded]):
 
     Args:
         plan_type: what the items are.
-        items: in order; a mission's item 0 is home.
+        items: in order.
         sysid, compid, send, now, known: as of Transfer.
+        home_first: whether a mission's item 0 is home.
     """
 
     what = "upload"
@@ -55,9 +56,12 @@ class PlanUpload(PlanTransfer[Uploaded]):
         send: Callable[[Message], None],
         now: Callable[[], float],
         known: Acquaintance | None = None,
+        *,
+        home_first: bool = True,
     ) -> None:
         super().__init__(plan_type, sysid, compid, send, now, known)
         self._items = tuple(items)
+        self._home_first = home_first
         self._asked: set[int] = set()
         self._unsent = set(range(len(self._items)))
         self._last_asked = 0
@@ -118,7 +122,8 @@ class PlanUpload(PlanTransfer[Uploaded]):
 
     def _send_item(self, seq: int) -> None:
         self._unsent.discard(seq)
-        self._send(item_message(self._items[seq], seq, *self._target, self._plan_type))
+        item = item_message(self._items[seq], seq, *self._target, self._plan_type, home_first=self._home_first)
+        self._send(item)
 
     def _give_up(self) -> "Uploaded | TransferError":
         return self._stopped() if self._unsent else Uploaded(confirmed=False)

@@ -32,10 +32,10 @@ async def upload_and_verify(vehicle: VehicleLink, plan_type: PlanType, items: It
     Args:
         vehicle: who gets it; a plane.
         plan_type: mission, fence or rally points.
-        items: in order; a mission's item 0 is home.
+        items: in order, as its autopilot has them on the wire (`missions.dialect.wire_items`).
 
     Returns:
-        The number of items that the vehicle holds as sent; home, which is its own, counts as one of them.
+        The number of items that the vehicle holds as sent; home, if it is one of them, is the vehicle's own.
 
     Raises:
         TransferError: the vehicle is no plane, the transfer failed, or the vehicle holds something else.
@@ -45,16 +45,16 @@ async def upload_and_verify(vehicle: VehicleLink, plan_type: PlanType, items: It
     async with vehicle.transfer_lock:
         lines: list[str] = []
         for _ in range(ROUNDS):
-            await run(vehicle, lambda *link: PlanUpload(plan_type, sent, *link))
+            await run(vehicle, lambda *link: PlanUpload(plan_type, sent, *link, home_first=_home_first(vehicle)))
             held = await run(vehicle, lambda *link: PlanDownload(plan_type, *link))
-            lines = differences(plan_type, sent, held)
+            lines = differences(plan_type, sent, held, vehicle.autopilot)
             if not lines:
                 return len(held)
     raise TransferError(f"{vehicle}: holds another {_plan(plan_type)} than was sent: {_some(lines)}")
 
 
 async def download(vehicle: VehicleLink, plan_type: PlanType) -> tuple[MissionItem, ...]:
-    """Download the plan that a vehicle holds, home first in a mission. Raises TransferError."""
+    """Download the plan that a vehicle holds, as its autopilot has it on the wire. Raises TransferError."""
     async with vehicle.transfer_lock:
         return await run(vehicle, lambda *link: PlanDownload(plan_type, *link))
 
@@ -73,7 +73,7 @@ async def clear(vehicle: VehicleLink, plan_type: PlanType) -> None:
 async def _clear(vehicle: VehicleLink, plan_type: PlanType) -> None:
     await run(vehicle, lambda *link: PlanClear(plan_type, *link))
     held = await run(vehicle, lambda *link: PlanDownload(plan_type, *link))
-    left = len(held) - (1 if plan_type == PlanType.MISSION else 0)
+    left = len(held) - (1 if plan_type == PlanType.MISSION and _home_first(vehicle) else 0)
     if left > 0:
         raise TransferError(f"{vehicle}: still holds {left} items of its {_plan(plan_type)} after clearing it")
 
@@ -85,14 +85,12 @@ def _check(vehicle: VehicleLink, plan_type: PlanType, items: Sequence[MissionIte
         entry = mavlink.enums["MAV_TYPE"].get(heartbeat.type)
         kind = entry.name if entry is not None else f"vehicle of type {heartbeat.type}"
         raise TransferError(f"{vehicle}: is a {kind}, and gets no {_plan(plan_type)}: Skein's are for planes")
-    px4 = heartbeat is not None and heartbeat.autopilot == mavlink.MAV_AUTOPILOT_PX4
-    if px4 and plan_type == PlanType.MISSION:
-        raise TransferError(
-            f"{vehicle}: is a PX4, which would fly to item 0, home; upload with QGroundControl what `skein "
-            "export --format plan --autopilot px4` writes"
-        )
     if len(items) > _LARGEST_COUNT:
         raise TransferError(f"{vehicle}: {len(items)} items are more than MAVLink can count; {_LARGEST_COUNT} at most")
+
+
+def _home_first(vehicle: VehicleLink) -> bool:
+    return vehicle.autopilot.home_is_item_0
 
 
 def _plan(plan_type: PlanType) -> str:

@@ -11,11 +11,24 @@ _LARGEST_DEG = 180.0
 
 
 def item_message(
-    item: MissionItem, seq: int, target_system: int, target_component: int, plan: PlanType = PlanType.MISSION
+    item: MissionItem,
+    seq: int,
+    target_system: int,
+    target_component: int,
+    plan: PlanType = PlanType.MISSION,
+    *,
+    home_first: bool = True,
 ) -> Message:
     """`item` as MISSION_ITEM_INT.
 
-    One item is marked as the current one, as MAVSDK demands of every plan: the first that is not home.
+    One item is marked as the current one, as MAVSDK demands of every plan: the first that is not home. PX4 begins its
+    flight there.
+
+    Args:
+        item, seq: that is sent.
+        target_system, target_component: to whom.
+        plan: that it is of.
+        home_first: whether item 0 of a mission is home.
     """
     return mavlink.MAVLink_mission_item_int_message(
         target_system,
@@ -23,7 +36,7 @@ def item_message(
         seq,
         item.frame,
         item.command,
-        int(seq == (1 if plan == PlanType.MISSION else 0)),
+        int(seq == (1 if plan == PlanType.MISSION and home_first else 0)),
         int(item.autocontinue),
         item.param1,
         item.param2,

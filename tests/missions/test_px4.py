@@ -11,7 +11,7 @@ from pyproj import Geod
 from missions.commands import PLACES, Command, Frame
 from missions.errors import InputError
 from missions.mission import Mission, MissionItem
-from missions.px4 import TAKEOFF_AHEAD_M, px4_items, px4_mission
+from missions.px4 import TAKEOFF_AHEAD_M, mission_of_px4, px4_items, px4_kept, px4_mission
 
 GLOBE = Geod(ellps="WGS84")
 HOME = MissionItem(Command.NAV_WAYPOINT, Frame.GLOBAL, lat_e7=465_000_000, lon_e7=113_000_000, alt_m=1200.0)
@@ -171,6 +171,39 @@ def test_home_is_not_sent_and_jumps_count_without_it() -> None:
     items = px4_items(px4_mission(Mission((HOME, TAKEOFF, FAR, jump))))
     assert [item.command for item in items] == [Command.NAV_TAKEOFF, Command.NAV_WAYPOINT, Command.DO_JUMP]
     assert items[2].params == (1.0, 5.0, 0.0, 0.0)
+
+
+@given(MISSIONS, st.lists(st.builds(lambda to: MissionItem(178, Frame.MISSION, to), st.floats(1, 9)), max_size=2))
+def test_what_is_held_without_home_is_the_mission_again_with_it(mission: Mission, more: list[MissionItem]) -> None:
+    jump = MissionItem(Command.DO_JUMP, Frame.MISSION, 1.0, 5.0)
+    whole = Mission((*mission.items, *more, jump))
+    assert mission_of_px4(px4_items(whole), whole.home) == whole
+
+
+HEADED = place(Command.NAV_WAYPOINT, param1=3.0, param2=80.0, param3=7.0, param4=-90.0)
+
+
+@pytest.mark.parametrize(
+    ("item", "kept"),
+    [
+        (HEADED, replace(HEADED, param3=0.0, param4=270.0)),
+        (replace(HEADED, param4=math.nan), replace(HEADED, param3=0.0, param4=math.nan)),
+        (TAKEOFF, replace(TAKEOFF, param1=0.0)),
+        (
+            place(Command.NAV_LOITER_TO_ALT, param1=2.0, param2=-90.0, param4=0.5),
+            place(Command.NAV_LOITER_TO_ALT, param1=1.0, param2=-90.0, param4=1.0),
+        ),
+        (place(Command.NAV_LOITER_UNLIM, param1=1.0, param3=-90.0), place(Command.NAV_LOITER_UNLIM, param3=-90.0)),
+    ],
+)
+def test_px4_gives_back_what_has_a_meaning_to_it(item: MissionItem, kept: MissionItem) -> None:
+    assert repr(px4_kept(item)) == repr(kept)  # NaN is no equal of itself
+    assert repr(px4_kept(kept)) == repr(kept)
+
+
+def test_what_has_no_place_px4_keeps_whole() -> None:
+    speed = MissionItem(Command.DO_CHANGE_SPEED, Frame.MISSION, 0.0, 25.0, -1.0, 1.0)
+    assert px4_kept(speed) == speed
 
 
 CIRCLE = place(Command.NAV_LOITER_TO_ALT, 100_000, 0, 1250.0, param2=-90.0)

@@ -5,6 +5,8 @@ from dataclasses import replace
 from typing import Any
 
 from gcs.transfers.compare import differences
+from missions.autopilot import Autopilot
+from missions.commands import Command
 from missions.fence import Fence, FenceCircle, fence_items
 from missions.mission import Mission
 from missions.plan_type import PlanType
@@ -39,6 +41,17 @@ def test_a_missing_item_is_a_difference(make_mission: Any) -> None:
 def test_the_vehicles_own_home_is_none(make_mission: Any) -> None:
     sent = make_mission(6)
     assert differences(PlanType.MISSION, sent.items, sent.with_home(sent[1]).items) == []
+
+
+def test_a_px4_has_no_home_there_and_drops_what_it_has_no_use_for(make_mission: Any) -> None:
+    sent = make_mission(6).items[1:]
+    pitched = (replace(sent[0], command=Command.NAV_TAKEOFF, param1=10.0, param2=0.0), *sent[1:])
+    held = (replace(pitched[0], param1=0.0), *sent[1:])
+    assert differences(PlanType.MISSION, pitched, held, Autopilot.px4) == []
+    lower = (replace(held[0], alt_m=held[0].alt_m - 1.0), *sent[1:])
+    (line,) = differences(PlanType.MISSION, pitched, lower, Autopilot.px4)
+    assert line.startswith("item 0: alt_m is ")
+    assert differences(PlanType.MISSION, pitched, (), Autopilot.px4) == ["0 items held, 5 sent"]
 
 
 def test_nan_equals_nan_only(make_mission: Any) -> None:

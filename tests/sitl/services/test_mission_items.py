@@ -39,6 +39,15 @@ def test_an_item_crosses_the_wire_unchanged(make_mission: Any) -> None:
         assert (message.seq, decode_item(message), check_item(message, MISSION, 12)) == (seq, item, item)
 
 
+def test_one_item_is_marked_as_the_first_to_be_flown(make_mission: Any) -> None:
+    def marked(**home_first: bool) -> list[int]:
+        messages = [item_message(item, seq, 1, 1, MISSION, **home_first) for seq, item in enumerate(make_mission(5))]
+        return [message.seq for message in messages if message.current]
+
+    assert marked() == [1]
+    assert marked(home_first=False) == [0]
+
+
 def test_the_old_float_message_is_read_to_the_nearest_of_what_it_can_hold() -> None:
     message = over_the_wire(
         mavlink.MAVLink_mission_item_message(1, 1, 2, 3, 16, 0, 1, 0, 0, 0, 0, 46.5, -11.25, 300.0, 0)
