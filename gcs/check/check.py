@@ -2,14 +2,14 @@
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from gcs.check.flight import Flight, planned_flight
-from gcs.check.held import forbidden
+from gcs.check.held import VehicleLimits, forbidden
 from gcs.check.judge import Judge
 from gcs.check.problem import Problem
 from missions.errors import InputError
@@ -57,7 +57,7 @@ def check_files(
     limits_given: bool,
     endurance_s: float = math.inf,
     range_m: float = math.inf,
-    parameters: Mapping[str, float] | None = None,
+    vehicle: VehicleLimits | None = None,
 ) -> Checked:
     """Check missions, each alone and all flown at once from the same moment on.
 
@@ -65,7 +65,7 @@ def check_files(
         files: that were read.
         scenario: with the limits, the airframe and the ground.
         ground_known, limits_given, endurance_s, range_m: as of `Judge`.
-        parameters: of the vehicle that is to fly them, which forbid some; None without one.
+        vehicle: that is to fly them, which forbids some; None without one.
     """
     figures, problems = [], []
     flights: list[tuple[MissionFile, Flight]] = []
@@ -78,8 +78,8 @@ def check_files(
                 flight = planned_flight(one.plan, scenario)
             except InputError as error:
                 problems.append(_as_problem(one.path, str(error)))
-        if parameters is not None:
-            problems += forbidden(one.path, one.plan, flight, parameters, scenario)
+        if vehicle is not None:
+            problems += forbidden(one.path, one.plan, flight, vehicle, scenario)
         if flight is None:
             continue
         flights.append((one, flight))

@@ -1,45 +1,86 @@
-"""What a vehicle's parameters forbid of a plan, by ArduPlane's names of old and new firmware."""
+"""What a vehicle forbids of a plan: too many items, and what its parameters say, by ArduPlane's names of old and new
+firmware, and PX4's.
+"""
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from gcs.check.flight import Flight
 from gcs.check.problem import Problem
+from missions.autopilot import Autopilot
 from missions.commands import Command
+from missions.dialect import wire_items
+from missions.fence import fence_items
+from missions.plan_type import PlanType
 from missions.reference.reference import position_m
 from missions.scenario import Scenario
 from missions.vehicle_plan import Plan
 from sitl.fence_watch import ALT_MAX, ALT_MIN, CIRCLE, POLYGONS
 
-SLOWEST, FASTEST = ("AIRSPEED_MIN", "ARSPD_FBW_MIN"), ("AIRSPEED_MAX", "ARSPD_FBW_MAX")
+SLOWEST = ("AIRSPEED_MIN", "ARSPD_FBW_MIN", "FW_AIRSPD_MIN")
+FASTEST = ("AIRSPEED_MAX", "ARSPD_FBW_MAX", "FW_AIRSPD_MAX")
 STEP_M = 5.0
 AIRSPEED_TYPE = 0.0
 
 
+@dataclass(frozen=True)
+class VehicleLimits:
+    """What a vehicle has told of itself.
+
+    Attributes:
+        parameters: by name.
+        capacities: how many items it takes of each plan; without those of which it does not say so.
+        autopilot: whose form its missions have.
+    """
+
+    parameters: Mapping[str, float]
+    capacities: Mapping[PlanType, int] = field(default_factory=dict)
+    autopilot: Autopilot = Autopilot.ardupilot
+
+
 def forbidden(
-    file: Path, plan: Plan, flight: Flight | None, parameters: Mapping[str, float], scenario: Scenario
+    file: Path, plan: Plan, flight: Flight | None, vehicle: VehicleLimits, scenario: Scenario
 ) -> Iterator[Problem]:
-    """What the parameters forbid; those that the vehicle has not got forbid nothing.
+    """What a vehicle forbids; parameters that it has not got forbid nothing.
 
     Args:
         file: that the plan is of.
         plan, flight: what is to be flown; no flight where there is none on paper.
-        parameters: of the vehicle, by name.
+        vehicle: what it has told.
         scenario: with the local frame.
     """
+    parameters = vehicle.parameters
+    yield from _too_many(str(file), plan, vehicle)
     yield from _speeds(str(file), plan, parameters)
     enabled = parameters.get("FENCE_ENABLE", 0.0) != 0.0
     kinds = int(parameters.get("FENCE_TYPE", 0.0))
-    if plan.fence.areas and not (enabled and kinds & POLYGONS):
+    if plan.fence.areas and vehicle.autopilot is Autopilot.px4:
+        if parameters.get("GF_ACTION") == 0.0:
+            yield Problem(str(file), None, "the fence would not be heeded", "GF_ACTION 0", "1 or more")
+    elif plan.fence.areas and not (enabled and kinds & POLYGONS):
         said = f"FENCE_ENABLE {parameters.get('FENCE_ENABLE', 0.0):g}, FENCE_TYPE {kinds}"
         yield Problem(str(file), None, "the fence would not be heeded", said, f"1 and the bit {POLYGONS}")
     if flight is not None:
         yield from _acceptance(str(file), flight, parameters)
         if enabled:
             yield from _set_fences(str(file), plan, flight, parameters, kinds, scenario)
+
+
+def _too_many(file: str, plan: Plan, vehicle: VehicleLimits) -> Iterator[Problem]:
+    """Plans for which the vehicle has no room."""
+    counts = {
+        PlanType.MISSION: len(wire_items(plan.mission, vehicle.autopilot)),
+        PlanType.FENCE: len(fence_items(plan.fence)),
+        PlanType.RALLY: len(plan.rally),
+    }
+    for plan_type, limit in vehicle.capacities.items():
+        if (count := counts[plan_type]) > limit:
+            what = f"more {plan_type.name.lower()} items than the vehicle takes"
+            yield Problem(file, None, what, f"{count}", f"{limit}")
 
 
 def _speeds(file: str, plan: Plan, parameters: Mapping[str, float]) -> Iterator[Problem]:

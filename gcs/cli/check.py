@@ -23,6 +23,7 @@ from gcs.cli.station import (
 
 if TYPE_CHECKING:
     from gcs.check.check import Checked
+    from gcs.check.held import VehicleLimits
     from gcs.vehicle_link import VehicleLink
     from missions.formats.mission_file import MissionFile
 
@@ -59,7 +60,7 @@ def check(
 ) -> None:
     """Check mission files, each alone and all flown at once: ground, fence, turns, climbs, speeds, separation, range.
 
-    With --connect or --vehicle also what that vehicle's parameters forbid of them.
+    With --connect or --vehicle also what that vehicle forbids of them, by its parameters and its room for items.
 
     Example: skein check a.plan b.waypoints --terrain ground.tif --endurance 45
     """
@@ -79,7 +80,7 @@ def check(
             else load_scenario(scenario)
         )
         asked = StationOptions(connect, vehicle, wait, signing_key, json)
-        parameters = None if connect is None and vehicle is None else _parameters_of(asked)
+        limits = None if connect is None and vehicle is None else _limits_of(asked)
         ground_known = scenario is not None or terrain is not None
         checked = check_files(
             found,
@@ -88,9 +89,11 @@ def check(
             limits_given=scenario is not None,
             endurance_s=math.inf if endurance is None else 60.0 * endurance,
             range_m=math.inf if range_km is None else 1000.0 * range_km,
-            parameters=parameters,
+            vehicle=limits,
         )
         unchecked = _unchecked(ground_known, scenario is not None, endurance is not None or range_km is not None)
+        if limits is not None and not limits.capacities:
+            unchecked.append("how many items the vehicle takes: it does not say, or is not ready, or flies")
         if json:
             output.print_json(_as_json(found, checked, unchecked))
         else:
@@ -99,17 +102,23 @@ def check(
             raise SystemExit(FELL_SHORT)
 
 
-def _parameters_of(options: StationOptions) -> dict[str, float]:
-    """All that one vehicle has. Raises InputError, TransferError."""
+def _limits_of(options: StationOptions) -> "VehicleLimits":
+    """What one vehicle tells of itself. Raises InputError, TransferError."""
+    from gcs.check.held import VehicleLimits
     from gcs.cli.params import values_of
+    from gcs.transfers.capacity import capacities
 
     def one_only(vehicles: "Sequence[VehicleLink]") -> None:
         require_one(vehicles, "one check")
 
-    (values,) = asyncio.run(results_of(options, options.sysids(), values_of, one_only)).values()
-    if isinstance(values, Exception):
-        raise values
-    return dict(values)
+    async def ask(one: "VehicleLink") -> VehicleLimits:
+        return VehicleLimits(await values_of(one), await capacities(one), one.autopilot)
+
+    (limits,) = asyncio.run(results_of(options, options.sysids(), ask, one_only)).values()
+    if isinstance(limits, Exception):
+        raise limits
+    assert isinstance(limits, VehicleLimits)
+    return limits
 
 
 def _unchecked(ground_known: bool, limits_given: bool, fuel_given: bool) -> list[str]:

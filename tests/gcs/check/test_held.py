@@ -6,10 +6,12 @@ from pathlib import Path
 import pytest
 
 from gcs.check.flight import planned_flight
-from gcs.check.held import forbidden
+from gcs.check.held import VehicleLimits, forbidden
+from missions.autopilot import Autopilot
 from missions.commands import Command
 from missions.fence import NO_FENCE, Fence, FenceCircle
 from missions.mission import Mission, MissionItem
+from missions.plan_type import PlanType
 from missions.scenario import Scenario
 from missions.vehicle_plan import Plan
 
@@ -43,5 +45,31 @@ def test_limits_are_named_with_the_item_that_breaks_them_and_the_parameter(
     way = (SPEED, place(Command.NAV_WAYPOINT, 1200, 0, 100), place(Command.NAV_WAYPOINT, 1500, 300, 120))
     fence = Fence((FenceCircle(True, (home.lat_e7, home.lon_e7), 9000.0),)) if fenced else NO_FENCE
     plan = Plan(Mission((home, *way)), fence)
-    problems = list(forbidden(Path("one.plan"), plan, planned_flight(plan, calm), parameters, calm))
+    problems = list(forbidden(Path("one.plan"), plan, planned_flight(plan, calm), VehicleLimits(parameters), calm))
     assert [(problem.item, problem.what, problem.limit) for problem in problems] == told
+
+
+@pytest.mark.parametrize(
+    ("autopilot", "room", "too_many"),
+    [(Autopilot.ardupilot, 3, []), (Autopilot.ardupilot, 2, ["3"]), (Autopilot.px4, 2, []), (Autopilot.px4, 1, ["2"])],
+)
+def test_more_items_than_the_vehicle_takes_are_counted_as_its_autopilot_counts_them(
+    calm: Scenario, home: MissionItem, place: Place, autopilot: Autopilot, room: int, too_many: list[str]
+) -> None:
+    plan = Plan(Mission((home, place(Command.NAV_WAYPOINT, 1200, 0, 100), place(Command.NAV_WAYPOINT, 1500, 300, 120))))
+    vehicle = VehicleLimits({}, {PlanType.MISSION: room, PlanType.FENCE: 0, PlanType.RALLY: 0}, autopilot)
+    problems = list(forbidden(Path("one.plan"), plan, None, vehicle, calm))
+    assert [problem.value for problem in problems] == too_many
+    assert {(problem.what, problem.limit) for problem in problems} <= {
+        ("more mission items than the vehicle takes", str(room))
+    }
+
+
+@pytest.mark.parametrize(("action", "told"), [(0.0, ["GF_ACTION 0"]), (2.0, [])])
+def test_a_px4_heeds_fences_by_another_parameter(
+    calm: Scenario, home: MissionItem, place: Place, action: float, told: list[str]
+) -> None:
+    fence = Fence((FenceCircle(True, (home.lat_e7, home.lon_e7), 9000.0),))
+    plan = Plan(Mission((home, place(Command.NAV_WAYPOINT, 1200, 0, 100))), fence)
+    vehicle = VehicleLimits({"GF_ACTION": action}, autopilot=Autopilot.px4)
+    assert [problem.value for problem in forbidden(Path("one.plan"), plan, None, vehicle, calm)] == told

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.transfers.acquaintance import Acquaintance
+from gcs.transfers.capacity import PlanOffer
 from gcs.transfers.command import Command, command_long
 from gcs.transfers.parameters import ParameterFetch, ParameterRead, ParameterSet, ParameterValue
 from gcs.transfers.plan_clear import PlanClear
@@ -27,6 +28,7 @@ TRANSFERS = {
     "upload": lambda *link: PlanUpload(FENCE, ITEMS, *link),
     "download": lambda *link: PlanDownload(FENCE, *link),
     "clear": lambda *link: PlanClear(FENCE, *link),
+    "offer": lambda *link: PlanOffer(FENCE, *link),
     "parameters": lambda *link: ParameterFetch(*link),
     "read": lambda *link: ParameterRead("A", *link),
     "set": lambda *link: ParameterSet("A", ParameterValue(1.0, 9), *link),
