@@ -8,6 +8,7 @@ import typer
 
 from gcs.cli.counted import counted
 from gcs.cli.errors import exit_codes
+from gcs.cli.import_files import ComplexChoice, ComplexOption, HomeOption, read_files
 from gcs.cli.options import JsonOption
 from gcs.cli.station import (
     ConnectOption,
@@ -33,6 +34,8 @@ SourceArgument = Annotated[
 
 def upload(
     source: SourceArgument,
+    home: HomeOption = None,
+    complex_items: ComplexOption = ComplexChoice.refuse,
     connect: ConnectOption = None,
     vehicle: VehicleOption = None,
     wait: WaitOption = None,
@@ -45,16 +48,19 @@ def upload(
     """
     with exit_codes():
         from gcs.operations import upload_plan
+        from missions.errors import InputError
 
         options = StationOptions(connect, vehicle, wait, signing_key, json)
         title = "Uploaded, read back and compared"
         if source.is_dir():
+            if home is not None or complex_items is not ComplexChoice.refuse:
+                raise InputError(f"{source}: is a run; --home and --complex are for files of other stations")
             plans = _plans_of_run(source, options.sysids())
             for_vehicles(
                 options, title, lambda one: upload_plan(one, plans[one.sysid]), sysids=list(plans), words=_words
             )
         else:
-            plan = _plan_of_file(source)
+            plan = _plan_of_file(source, home, complex_items)
 
             def check(vehicles: "Sequence[VehicleLink]") -> None:
                 if options.vehicle is None:
@@ -76,14 +82,13 @@ def _plans_of_run(folder: Path, sysids: Sequence[int] | None) -> "dict[int, Plan
     return plans if sysids is None else {sysid: plans[sysid] for sysid in sysids}
 
 
-def _plan_of_file(path: Path) -> "Plan":
+def _plan_of_file(path: Path, home: str | None, complex_items: ComplexChoice) -> "Plan":
     from gcs.cli import output
     from missions.errors import InputError
-    from missions.formats.mission_file import read_mission_file
 
     if not path.suffix and not path.exists():
         raise InputError(f"{path}: neither a run's folder nor a .plan or .waypoints file")
-    found = read_mission_file(path)
+    (found,) = read_files([path], home, complex_items)
     for note in found.notes:
         output.progress.print(f"{path}: {note}", soft_wrap=True, markup=False)
     return found.plan

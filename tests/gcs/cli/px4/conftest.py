@@ -54,7 +54,7 @@ class FakePx4:
         home: tuple[int, int, float] | None = None,
         reference: Reference | None = None,
         frame: LocalFrame | None = None,
-        speed: float = 40.0,
+        speed: float = 80.0,
     ) -> None:
         self.plans: dict[int, tuple[MissionItem, ...]] = {0: (), 1: (), 2: ()}
         self.begins_at = 0

@@ -98,6 +98,28 @@ def test_without_a_home_there_is_nothing_to_write(make_px4: Any, ask: Any, tmp_p
     assert "vehicle 3: has no home; wait until it has a position" in result.stdout
 
 
+def test_a_file_without_home_is_sent_where_it_is_said_to_be_and_complex_items_are_left_out_if_asked(
+    px4: Any, ask: Any, run_folder: Path, tmp_path: Path
+) -> None:
+    bare = tmp_path / "bare.waypoints"
+    bare.write_text("QGC WPL 120\n0\t1\t0\t16\t0\t80\t0\t0\t46.51\t11.30\t1300\t1\n")
+    refused = ask([px4.url], "upload", bare, "--vehicle", "3")
+    assert refused.exit_code == 2
+    assert "--home" in refused.output
+    result = ask([px4.url], "upload", bare, "--vehicle", "3", "--home", "46.5,11.3,1200")
+    assert result.exit_code == 0, result.output
+    assert [item.lat_e7 for item in px4.plans[0]] == [465_100_000]
+    write_plan(Plan(JUMPING), tmp_path / "survey.plan", cruise_speed_m_s=22.0)
+    survey = json.loads((tmp_path / "survey.plan").read_text())
+    survey["mission"]["items"].append({"type": "ComplexItem", "complexItemType": "survey", "version": 5})
+    (tmp_path / "survey.plan").write_text(json.dumps(survey))
+    assert ask([px4.url], "upload", tmp_path / "survey.plan", "--vehicle", "3").exit_code == 2
+    skipped = ask([px4.url], "upload", tmp_path / "survey.plan", "--vehicle", "3", "--complex", "skip")
+    assert skipped.exit_code == 0, skipped.output
+    assert len(px4.plans[0]) == len(JUMPING) - 1
+    assert ask([px4.url], "upload", run_folder, "--complex", "skip").exit_code == 2
+
+
 def test_what_px4_would_refuse_is_not_sent(px4: Any, ask: Any, tmp_path: Path) -> None:
     late = Mission((JUMPING.home, JUMPING[2], TAKEOFF))
     write_plan(Plan(late), tmp_path / "late.plan", cruise_speed_m_s=22.0)
@@ -108,7 +130,7 @@ def test_what_px4_would_refuse_is_not_sent(px4: Any, ask: Any, tmp_path: Path) -
 
 
 def test_modes_are_its_own(px4: Any, ask: Any) -> None:
-    for mode in (Mode.AUTO, Mode.LOITER, Mode.RTL):
+    for mode in (Mode.AUTO, Mode.RTL):
         assert ask([px4.url], "mode", mode.name, "--vehicle", "3").exit_code == 0
         assert px4.custom_mode == custom_mode(mode, Autopilot.px4)
     (row,) = json.loads(ask([px4.url], "status", "--vehicle", "3", "--json").stdout)["vehicles"]
