@@ -70,9 +70,7 @@ async def download_plan(vehicle: VehicleLink) -> Plan:
 
 async def home_of(vehicle: VehicleLink) -> MissionItem:
     """Where a vehicle's home is, by its HOME_POSITION. Raises TransferError when it does not tell."""
-    if "HOME_POSITION" not in vehicle.latest:
-        await command(vehicle, mavlink.MAV_CMD_REQUEST_MESSAGE, float(mavlink.MAVLINK_MSG_ID_HOME_POSITION))
-    home = vehicle.latest.get("HOME_POSITION")  # it comes before its ACK
+    home = await _newest(vehicle, "HOME_POSITION", mavlink.MAVLINK_MSG_ID_HOME_POSITION)
     if home is None:
         raise TransferError(f"{vehicle}: has no home; wait until it has a position")
     return home_item(home.latitude, home.longitude, home.altitude / 1000.0)
@@ -93,10 +91,10 @@ def is_armed(vehicle: VehicleLink) -> bool:
     return _armed(vehicle.latest["HEARTBEAT"])
 
 
-def is_flying(vehicle: VehicleLink) -> bool:
-    """Whether it says that it is in the air: a PX4 in EXTENDED_SYS_STATE, others in HEARTBEAT."""
+async def is_flying(vehicle: VehicleLink) -> bool:
+    """Whether it says that it is in the air: a PX4 in EXTENDED_SYS_STATE, others in HEARTBEAT. Raises TransferError."""
     if vehicle.autopilot is Autopilot.px4:
-        state = vehicle.latest.get("EXTENDED_SYS_STATE")
+        state = await _newest(vehicle, "EXTENDED_SYS_STATE", mavlink.MAVLINK_MSG_ID_EXTENDED_SYS_STATE)
         grounded = state is not None and state.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND
     else:
         grounded = vehicle.latest["HEARTBEAT"].system_status == mavlink.MAV_STATE_STANDBY
@@ -114,7 +112,7 @@ async def bring_home(vehicle: VehicleLink) -> str:
     """
     if not is_armed(vehicle):
         return "on the ground, disarmed"
-    if not is_flying(vehicle):
+    if not await is_flying(vehicle):
         await disarm(vehicle)
         await heartbeat_shows(vehicle, "disarmed", lambda heartbeat: not _armed(heartbeat))
         return "on the ground, disarmed now"
@@ -145,6 +143,13 @@ async def heartbeat_shows(vehicle: VehicleLink, what: str, shown: Callable[[Mess
             raise TransferError(
                 f"{vehicle}: accepted, but no heartbeat shows {what} within {CONFIRM_TIMEOUT_S:g} s"
             ) from None
+
+
+async def _newest(vehicle: VehicleLink, kind: str, message_id: int) -> Message | None:
+    """The newest message of a kind, asked for if none has come yet. Raises TransferError when nobody answers."""
+    if kind not in vehicle.latest:
+        await command(vehicle, mavlink.MAV_CMD_REQUEST_MESSAGE, float(message_id))  # it comes before its ACK
+    return vehicle.latest.get(kind)
 
 
 def _armed(heartbeat: Message) -> bool:

@@ -44,6 +44,7 @@ class FakePx4:
         plans: items held, by mission_type.
         begins_at: the item that a flight begins with.
         custom_mode, armed: as in its heartbeats.
+        flown_s: how long it has been in the air, simulated time.
         commands: MAV_CMD numbers that it was sent, in order.
         airspeeds_m_s: that it was told in flight.
     """
@@ -62,7 +63,7 @@ class FakePx4:
         self.commands: list[int] = []
         self.airspeeds_m_s: list[float] = []
         self._home, self._reference, self._frame, self._speed = home, reference, frame, speed
-        self._time_s = self._flown_s = 0.0
+        self.flown_s = self._time_s = 0.0
         self._upload: list[MissionItem] | None = None
         self._count = self._type = self._marked = 0
         self._sending: int | None = None
@@ -104,16 +105,14 @@ class FakePx4:
         state = mavlink.MAV_STATE_ACTIVE if self.armed else mavlink.MAV_STATE_STANDBY
         kind, px4 = mavlink.MAV_TYPE_FIXED_WING, mavlink.MAV_AUTOPILOT_PX4
         self._send(mavlink.MAVLink_heartbeat_message(kind, px4, armed | 1, self.custom_mode, state, 3))
-        landed = mavlink.MAV_LANDED_STATE_IN_AIR if self._flown_s else mavlink.MAV_LANDED_STATE_ON_GROUND
-        self._send(mavlink.MAVLink_extended_sys_state_message(0, landed))
 
     def _fly(self) -> None:
         """A turn's worth of the reference, and where that is."""
         self._time_s += TURN_S * self._speed
         if not (self.armed and self.custom_mode == MISSION_MODE and self.plans[0] and self._reference and self._frame):
             return
-        self._flown_s += TURN_S * self._speed
-        here, soon = self._reference.positions(np.array([self._flown_s, self._flown_s + STEP_S]))
+        self.flown_s += TURN_S * self._speed
+        here, soon = self._reference.positions(np.array([self.flown_s, self.flown_s + STEP_S]))
         (x, y, z), (east, north, _) = here.tolist(), ((soon - here) / STEP_S).tolist()
         lat_e7, lon_e7 = self._frame.to_e7(x, y)
         alt_mm = round((z + self._frame.alt_m) * 1e3)
@@ -149,7 +148,7 @@ class FakePx4:
         if message.command == mavlink.MAV_CMD_DO_SET_MODE:
             self.custom_mode = int(message.param2) << 16 | int(message.param3) << 24
         elif message.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
-            if not message.param1 and self._flown_s:
+            if not message.param1 and self.flown_s:
                 return int(mavlink.MAV_RESULT_DENIED)
             self.armed = bool(message.param1)
         elif message.command == mavlink.MAV_CMD_DO_CHANGE_SPEED:
@@ -165,6 +164,9 @@ class FakePx4:
         if message_id == mavlink.MAVLINK_MSG_ID_SYS_STATUS:
             ready = mavlink.MAV_SYS_STATUS_PREARM_CHECK if self.plans[0] else 0
             self._send(mavlink.MAVLink_sys_status_message(*[ready] * 3, *[0] * 10))
+        elif message_id == mavlink.MAVLINK_MSG_ID_EXTENDED_SYS_STATE:
+            landed = mavlink.MAV_LANDED_STATE_IN_AIR if self.flown_s else mavlink.MAV_LANDED_STATE_ON_GROUND
+            self._send(mavlink.MAVLink_extended_sys_state_message(0, landed))
         elif message_id == mavlink.MAVLINK_MSG_ID_HOME_POSITION and self._home is not None:
             lat_e7, lon_e7, alt_m = self._home
             rest = (*[0.0] * 3, [1.0, 0.0, 0.0, 0.0], *[0.0] * 3)

@@ -148,6 +148,12 @@ def test_one_on_the_ground_is_disarmed_not_sent_home(px4: Any, ask: Any) -> None
     assert mavlink.MAV_CMD_DO_SET_MODE not in px4.commands
 
 
+def test_one_in_the_air_is_sent_home_and_stays_armed(px4: Any, ask: Any) -> None:
+    px4.armed, px4.flown_s = True, 60.0
+    assert ask([px4.url], "abort", "--vehicle", "3").exit_code == 0
+    assert (px4.armed, px4.custom_mode) == (True, custom_mode(Mode.RTL, Autopilot.px4))
+
+
 def test_a_swarm_of_them_is_flown_in_their_own_modes_and_at_commanded_airspeeds(
     make_px4: Any, ask: Any, run_folder: Path
 ) -> None:
