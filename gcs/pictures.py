@@ -28,7 +28,7 @@ SCENES = ("radars", "mountains")
 FORMATION = "vee"
 GUIDE = "gap.toml"
 """Beside the folder of pictures."""
-WIDTH_PX, COLOURS = 1200, 96
+WIDTH_PX = 1200
 """Of a guide's picture: a page of several must load over a field's network."""
 
 
@@ -63,7 +63,10 @@ def _shrink(source: Path, target: Path) -> None:
     with Image.open(source) as image:
         height_px = round(image.height * WIDTH_PX / image.width)
         smaller = image.convert("RGB").resize((WIDTH_PX, height_px), Image.Resampling.LANCZOS)
-        smaller.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)
+        few = smaller.quantize(
+            256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE
+        )  # thin lines keep theirs
+        few.save(target, optimize=True)
 
 
 def _flown(name: str, arm: Arm, out: Path) -> tuple[RunFolder, Series]:

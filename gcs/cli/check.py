@@ -161,9 +161,9 @@ def _show(files: "Sequence[MissionFile]", checked: "Checked", unchecked: Sequenc
         table = Table(title=f"Problems: {len(checked.problems)}", title_justify="left")
         table.add_column("file", overflow="fold")
         table.add_column("item", justify="right")
-        table.add_column("what", overflow="fold", min_width=20)
+        table.add_column("what", overflow="fold", min_width=16)
         for heading in ("value", "limit"):
-            table.add_column(heading, justify="right", min_width=10)
+            table.add_column(heading, justify="right")
         for problem in checked.problems:
             item = "" if problem.item is None else str(problem.item)
             cells = (Path(problem.file).name, item, problem.what, problem.value, problem.limit)

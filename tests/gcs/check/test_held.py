@@ -8,7 +8,7 @@ import pytest
 from gcs.check.flight import planned_flight
 from gcs.check.held import forbidden
 from missions.commands import Command
-from missions.fence import NO_FENCE, Fence, FenceCircle
+from missions.fence import NO_FENCE, Fence, FenceCircle, rally_items
 from missions.mission import Mission, MissionItem
 from missions.scenario import Scenario
 from missions.vehicle_plan import Plan
@@ -45,3 +45,15 @@ def test_limits_are_named_with_the_item_that_breaks_them_and_the_parameter(
     plan = Plan(Mission((home, *way)), fence)
     problems = list(forbidden(Path("one.plan"), plan, planned_flight(plan, calm), parameters, calm))
     assert [(problem.item, problem.what, problem.limit) for problem in problems] == told
+
+
+@pytest.mark.parametrize(("limit_km", "told"), [(1.0, [3]), (2.0, []), (0.0, [])])
+def test_a_rally_point_beyond_those_that_count_is_told(
+    calm: Scenario, home: MissionItem, place: Place, limit_km: float, told: list[int]
+) -> None:
+    way = (SPEED, place(Command.NAV_WAYPOINT, 1200, 0, 100), place(Command.NAV_WAYPOINT, 1500, 300, 120))
+    plan = Plan(Mission((home, *way)), rally=rally_items([(home.lat_e7, home.lon_e7, 200.0)]))
+    parameters = {"RALLY_LIMIT_KM": limit_km}
+    problems = list(forbidden(Path("one.plan"), plan, planned_flight(plan, calm), parameters, calm))
+    assert [problem.item for problem in problems] == told
+    assert all(problem.what == "rally point that does not count" for problem in problems)
