@@ -23,7 +23,7 @@ DOCS = Path(__file__).parents[1] / "docs"
 GUIDE = DOCS / "operators.md"
 PORT = "14550"
 """In the guide; another one when it is run."""
-READY = "Ctrl-C ends the simulation."
+READY = "The clock is held; Enter releases it."
 BLOCK = re.compile(r"(?:<!-- (?P<mark>[^>]+) -->\n)?```(?P<kind>sh|text|toml)\n(?P<text>.*?)```", re.S)
 TIMEOUT_S = 200
 
@@ -95,7 +95,7 @@ def run(folder: Path, free_port: Callable[[], int]) -> Iterator[Callable[[Block]
         command = ["bash", "-e", "-c", moved(block.commands)]
         if block.mark == "another terminal":
             (line,) = moved(block.commands).splitlines()
-            pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+            pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
             other = subprocess.Popen(shlex.split(line), cwd=folder, env=environment, text=True, **pipes)
             others.append(other)
             assert other.stdout is not None
@@ -103,6 +103,11 @@ def run(folder: Path, free_port: Callable[[], int]) -> Iterator[Callable[[Block]
             while READY not in printed and (said := other.stdout.readline()):
                 printed += said
             return 0 if READY in printed else 1, printed
+        if block.mark == "Enter in the other terminal":
+            (keyboard,) = (other.stdin for other in others)
+            assert keyboard is not None
+            keyboard.write("\n")
+            keyboard.flush()
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
         ended = subprocess.run(command, cwd=folder, env=environment, text=True, timeout=TIMEOUT_S, check=False, **pipes)
         return ended.returncode, ended.stdout
@@ -113,6 +118,7 @@ def run(folder: Path, free_port: Callable[[], int]) -> Iterator[Callable[[Block]
         other.communicate(timeout=20)
 
 
+@pytest.mark.timeout(600)
 def test_the_guide_s_commands_do_what_it_says(run: Callable[[Block], tuple[int, str]], folder: Path) -> None:
     for block in blocks():
         if block.mark.startswith("needs aircraft"):
