@@ -68,7 +68,7 @@ def broken_limit(path: PathFound, avoided: Sequence[str] = ()) -> str:
     where = f"on leg {leg + 1}, from {_place(start)} to {_place(end)}"
     bounds = problem.bounds
     if kind in (0, 1):
-        return f"has a leg {over_m:.0f} m too {'short' if kind == 0 else 'long'} {where}"
+        return f"has a leg {_metres(over_m)} m too {'short' if kind == 0 else 'long'} {where}"
     if kind in (2, 3):
         steepest = bounds.slope_max if kind == 2 else bounds.slope_min
         slope = math.atan2(end[2] - start[2], math.hypot(*(end - start)[:2]))
@@ -80,21 +80,26 @@ def broken_limit(path: PathFound, avoided: Sequence[str] = ()) -> str:
     if kind == 4:
         return f"turns by {math.degrees(bounds.turn_max + over_m / 1000.0):.0f} deg at {_place(end)}"
     if kind in (5, 6):
-        return f"has no room for a turn at {_place(end)}: {over_m:.0f} m are missing"
+        return f"has no room for a turn at {_place(end)}: {_metres(over_m)} m are missing"
     if kind in (7, 8):
-        return f"comes {over_m:.0f} m too close to the ground {where}"
+        return f"comes {_metres(over_m)} m too close to the ground {where}"
     kind -= LEG_LIMITS
     if kind < WAYPOINT_LIMITS:
-        return f"lies {over_m:.0f} m outside the area ({SIDES[kind]}) at {_place(end)}"
+        return f"lies {_metres(over_m)} m outside the area ({SIDES[kind]}) at {_place(end)}"
     kind -= WAYPOINT_LIMITS
     if kind < len(problem.obstacles):
-        return f"comes {over_m:.0f} m too close to obstacles[{kind}] {where}"
+        return f"comes {_metres(over_m)} m too close to obstacles[{kind}] {where}"
     other = kind - len(problem.obstacles) - len(problem.radars)
-    return f"comes {over_m:.0f} m too close to {avoided[other] if avoided else 'another UAV'} {where}"
+    return f"comes {_metres(over_m)} m too close to {avoided[other] if avoided else 'another UAV'} {where}"
 
 
 def _place(point_m: np.ndarray) -> str:
     return f"({point_m[0]:.0f}, {point_m[1]:.0f}, {point_m[2]:.0f})"
+
+
+def _metres(over_m: float) -> str:
+    """To a decimal where little is missing: never 0."""
+    return f"{over_m:.0f}" if over_m >= 10.0 else f"{math.ceil(10.0 * over_m) / 10.0:.1f}"
 
 
 def _deg(slope: float) -> float:

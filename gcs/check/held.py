@@ -66,6 +66,7 @@ def forbidden(
         yield Problem(str(file), None, "the fence would not be heeded", said, f"1 and the bit {POLYGONS}")
     if flight is not None:
         yield from _acceptance(str(file), flight, parameters)
+        yield from _rally(str(file), plan, flight, parameters, scenario)
         if enabled:
             yield from _set_fences(str(file), plan, flight, parameters, kinds, scenario)
 
@@ -103,6 +104,23 @@ def _acceptance(file: str, flight: Flight, parameters: Mapping[str, float]) -> I
                 yield Problem(
                     file, seq, "leg within the acceptance radius", f"{length_m:.0f} m", f"WP_RADIUS {radius_m:g}"
                 )
+
+
+def _rally(
+    file: str, plan: Plan, flight: Flight, parameters: Mapping[str, float], scenario: Scenario
+) -> Iterator[Problem]:
+    """Where all rally points are farther away than those that count, on samples of the flight."""
+    limit_km = parameters.get("RALLY_LIMIT_KM", 0.0)
+    if not plan.rally or limit_km <= 0.0:  # 0 is no limit
+        return
+    s_m = np.arange(0.0, flight.whole.length_m, STEP_M)
+    x, y, _ = flight.whole.points(s_m).T
+    places = [scenario.frame.from_e7(rally.lat_e7, rally.lon_e7) for rally in plan.rally]
+    nearest_km = np.min([np.hypot(x - at[0], y - at[1]) for at in places], axis=0) / 1000.0
+    k = int(np.argmax(nearest_km))
+    if nearest_km[k] > limit_km:
+        item, limit = flight.item_at(float(s_m[k])), f"RALLY_LIMIT_KM {limit_km:g}"
+        yield Problem(file, item, "rally point that does not count", f"{nearest_km[k]:.1f} km away", limit)
 
 
 def _set_fences(

@@ -105,11 +105,13 @@ class Judge:
                 yield self._at(float(least.at[0]), what, f"by {-least.value[0]:.0f} m", "0 m")
 
     def _angles(self) -> Iterator[Problem]:
-        """Steepest climb and descent: at the ends of the altitude's pieces; a landing has its own check."""
+        """Steepest climb and descent: at the ends of the altitude's pieces. A landing has its own check, and how
+        steeply it climbs on its circle at the end a vehicle chooses."""
         whole, most = self.flight.whole, self.scenario.limits.climb_max_deg
+        until_m = min(self.flight.descent_m, self.flight.ended_m, whole.length_m)
         inside = whole.altitude[:, 0]
         ends = np.clip(np.concatenate([inside, inside[1:] - 1e-3, [whole.length_m]]), 0.0, whole.length_m)
-        s_m = np.unique(ends[ends <= self.flight.descent_m])
+        s_m = np.unique(np.append(ends[ends < until_m], max(until_m - 1e-3, 0.0)))
         angles = np.degrees(np.arctan(whole.slopes(s_m)))
         for what, sign in (("climb", 1.0), ("descent", -1.0)):
             k = int(np.argmax(sign * angles))

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from gcs.check.held import VehicleLimits
     from gcs.vehicle_link import VehicleLink
     from missions.formats.mission_file import MissionFile
+    from missions.scenario import Scenario
 
 AgainstOption = Annotated[
     str | None,
@@ -40,6 +41,9 @@ EnduranceOption = Annotated[
 ]
 RangeOption = Annotated[
     float | None, typer.Option("--range", metavar="KM", min=0.0, callback=finite, help="Farthest flight.")
+]
+FigureOption = Annotated[
+    Path | None, typer.Option("--figure", metavar="PNG", help="Draw what the files hold: items, circles, fences.")
 ]
 
 
@@ -56,6 +60,7 @@ def check(
     vehicle: VehicleOption = None,
     wait: WaitOption = None,
     signing_key: KeyOption = None,
+    figure: FigureOption = None,
     json: JsonOption = False,
 ) -> None:
     """Check mission files, each alone and all flown at once: ground, fence, turns, climbs, speeds, separation, range.
@@ -91,6 +96,8 @@ def check(
             range_m=math.inf if range_km is None else 1000.0 * range_km,
             vehicle=limits,
         )
+        if figure is not None:
+            _draw(found, against, figure)
         unchecked = _unchecked(ground_known, scenario is not None, endurance is not None or range_km is not None)
         if limits is not None and not limits.capacities:
             unchecked.append("how many items the vehicle takes: it does not say, or is not ready, or flies")
@@ -100,6 +107,15 @@ def check(
             _show(found, checked, unchecked)
         if checked.problems:
             raise SystemExit(FELL_SHORT)
+
+
+def _draw(files: "Sequence[MissionFile]", scenario: "Scenario", figure: Path) -> None:
+    from gcs.figures import draw_mission_files
+    from missions.errors import InputError
+
+    if figure.suffix.lower() != ".png":
+        raise InputError(f"--figure {figure}: name a .png file")
+    draw_mission_files({one.path.stem: one.plan for one in files}, scenario, figure)
 
 
 def _limits_of(options: StationOptions) -> "VehicleLimits":
@@ -152,10 +168,11 @@ def _show(files: "Sequence[MissionFile]", checked: "Checked", unchecked: Sequenc
         output.out.print(table)
     if checked.problems:
         table = Table(title=f"Problems: {len(checked.problems)}", title_justify="left")
-        for heading, justify in (("file", "left"), ("item", "right"), ("what", "left")):
-            table.add_column(heading, justify=justify, overflow="fold")  # type: ignore[arg-type]
+        table.add_column("file", overflow="fold")
+        table.add_column("item", justify="right")
+        table.add_column("what", overflow="fold", min_width=16)
         for heading in ("value", "limit"):
-            table.add_column(heading, justify="right", no_wrap=True)
+            table.add_column(heading, justify="right")
         for problem in checked.problems:
             item = "" if problem.item is None else str(problem.item)
             cells = (Path(problem.file).name, item, problem.what, problem.value, problem.limit)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 MethodOption = Annotated[
     str | None, typer.Option("--method", metavar="M", help="Search: skein, pso, qpso, hybrid or published.")
 ]
+FiguresOption = Annotated[
+    bool, typer.Option("--figures", help="Draw the plan into the run's figures/: the scene, maps, heights.")
+]
 
 
 def plan(
@@ -23,6 +26,7 @@ def plan(
     out: OutOption = None,
     seed: SeedOption = None,
     method: MethodOption = None,
+    figures: FiguresOption = False,
     json: JsonOption = False,
 ) -> None:
     """Plan a path for every vehicle of a scenario and write a run.
@@ -32,15 +36,28 @@ def plan(
     with exit_codes():
         from gcs.cli import output
         from gcs.cli.plan_json import plan_json
-        from gcs.cli.tables import plan_table
+        from gcs.cli.tables import plan_table, planned_table
+        from planner.verify import verify
 
         run, loaded, result = plan_run(scenario, out, seed, method)
+        if figures:
+            _draw(run, loaded, result)
         if json:
             output.print_json({"run": str(run.path), **plan_json(result, loaded)})
             return
         output.out.print(plan_table(result, loaded))
-        output.out.print(f"Run:    {run.path}", soft_wrap=True)
-        output.out.print(f"Fly it: skein fly {run.path}", soft_wrap=True)
+        output.out.print(planned_table(verify(result, loaded), result, loaded))
+        output.out.print(f"Run:     {run.path}", soft_wrap=True)
+        if figures:
+            output.out.print(f"Figures: {run.figures}", soft_wrap=True)
+        output.out.print(f"Fly it:  skein fly {run.path}", soft_wrap=True)
+
+
+def _draw(run: "RunFolder", scenario: "Scenario", plan: "FormationPlan") -> None:
+    from gcs.figures import draw_plan
+
+    run.figures.mkdir()
+    draw_plan(scenario, plan, run.figures)
 
 
 def plan_run(

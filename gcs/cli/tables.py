@@ -1,5 +1,6 @@
 """The tables that commands print for people; they fit 80 columns."""
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ from rich.table import Table
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
 from planner.standing import Standing, standings
+from planner.verify import VerificationReport
 from sitl.services.links import LOOPBACK
 from sitl.swarm import Swarm
 
@@ -35,6 +37,26 @@ def plan_table(plan: FormationPlan, scenario: Scenario) -> Table:
         )
     table.add_section()
     table.add_row("all", f"{together.fitness_km:.3f}", "", _gap(together))
+    return table
+
+
+def planned_table(report: VerificationReport, plan: FormationPlan, scenario: Scenario) -> Table:
+    """What each UAV is to fly: figures that an operator compares with what the aircraft can do."""
+    table = _table(
+        "To be flown",
+        ["UAV", "km", "min", "highest\nm AMSL", "up/down\ndeg", "airspeed\nm/s", "power", "nearest\nother m"],
+    )
+    for uav, verified in zip(plan.uavs, report.uavs, strict=True):
+        table.add_row(
+            f"{uav.sysid} {uav.name}",
+            f"{uav.length_m / 1000.0:.2f}",
+            f"{verified.arrival_s / 60.0:.1f}",
+            f"{verified.altitude_max_m + scenario.origin.alt_m:.0f}",
+            f"{verified.climb_deg:.1f} / {verified.descent_deg:.1f}",
+            f"{verified.airspeed_min_m_s:.1f}-{verified.airspeed_max_m_s:.1f}",
+            f"{verified.power_share:.0%}",
+            f"{verified.separation_m:.0f}" if math.isfinite(verified.separation_m) else "-",
+        )
     return table
 
 

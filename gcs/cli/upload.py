@@ -1,5 +1,6 @@
 """`skein upload`: bring missions to vehicles, and read them back."""
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -27,9 +28,12 @@ if TYPE_CHECKING:
 SourceArgument = Annotated[
     Path,
     typer.Argument(
-        metavar="RUN|FILE", help="A run: each vehicle's mission; or a .plan or .waypoints file for chosen vehicles."
+        metavar="RUN|FOLDER|FILE",
+        help="A run: each vehicle's mission; a folder of exported .plan files: each to the vehicle that its name "
+        "begins with; or a .plan or .waypoints file for chosen vehicles.",
     ),
 ]
+_EXPORTED = re.compile(r"(\d+)-.*\.plan")
 
 
 def upload(
@@ -45,17 +49,16 @@ def upload(
     """Upload missions to all vehicles at once, read each back and compare; a .plan file's fence and rally points too.
 
     Example: skein upload runs/first --vehicle 1-3
+
+    Example: skein upload runs/first/missions/relative
     """
     with exit_codes():
         from gcs.operations import upload_plan
-        from missions.errors import InputError
 
         options = StationOptions(connect, vehicle, wait, signing_key, json)
         title = "Uploaded, read back and compared"
         if source.is_dir():
-            if home is not None or complex_items is not ComplexChoice.refuse:
-                raise InputError(f"{source}: is a run; --home and --complex are for files of other stations")
-            plans = _plans_of_run(source, options.sysids())
+            plans = _chosen(_plans_in(source, home, complex_items), source, options.sysids())
             for_vehicles(
                 options, title, lambda one: upload_plan(one, plans[one.sysid]), sysids=list(plans), words=_words
             )
@@ -69,14 +72,34 @@ def upload(
             for_vehicles(options, title, lambda one: upload_plan(one, plan), check=check, words=_words)
 
 
-def _plans_of_run(folder: Path, sysids: Sequence[int] | None) -> "dict[int, Plan]":
-    """The missions of a run by system id, of these vehicles only if they are given."""
+def _plans_in(folder: Path, home: str | None, complex_items: ComplexChoice) -> "dict[int, Plan]":
+    """By system id: what files named <sysid>-<name>.plan hold, as `skein export` writes them, or else a run's missions.
+
+    Raises:
+        InputError: it is neither, a file cannot be read, or two are for one vehicle.
+    """
     from gcs.run_folder import RunFolder
     from missions.errors import InputError
     from missions.vehicle_plan import Plan
 
-    _, formation = RunFolder(folder).read()
-    plans = {uav.sysid: Plan(uav.mission) for uav in formation.uavs}
+    plans: dict[int, Plan] = {}
+    for path in sorted(folder.glob("*.plan")):
+        if (found := _EXPORTED.fullmatch(path.name)) is not None:
+            if (sysid := int(found[1])) in plans:
+                raise InputError(f"{path}: another file here is for vehicle {sysid}, too; leave one of them")
+            plans[sysid] = _plan_of_file(path, home, complex_items)
+    if not plans:
+        if home is not None or complex_items is not ComplexChoice.refuse:
+            raise InputError(f"{folder}: is a run; --home and --complex are for files of other stations")
+        _, formation = RunFolder(folder).read()
+        plans = {uav.sysid: Plan(uav.mission) for uav in formation.uavs}
+    return dict(sorted(plans.items()))
+
+
+def _chosen(plans: "dict[int, Plan]", folder: Path, sysids: Sequence[int] | None) -> "dict[int, Plan]":
+    """Of these vehicles only, if they are given. Raises InputError when one has no plan."""
+    from missions.errors import InputError
+
     if unknown := [sysid for sysid in sysids or () if sysid not in plans]:
         raise InputError(f"{folder}: has no mission for vehicle {unknown[0]}; there are {', '.join(map(str, plans))}")
     return plans if sysids is None else {sysid: plans[sysid] for sysid in sysids}

@@ -5,6 +5,8 @@ from pathlib import Path
 from gcs.figures.arms import draw_arms
 from gcs.figures.convergence import draw_convergence
 from gcs.figures.formation import draw_formation
+from gcs.figures.heights import draw_heights
+from gcs.figures.mission_files import draw_mission_files
 from gcs.figures.plan_views import draw_plan_views
 from gcs.figures.scene import draw_scene
 from gcs.figures.schedule import draw_schedule
@@ -18,10 +20,20 @@ __all__ = [
     "draw_arms",
     "draw_convergence",
     "draw_formation",
+    "draw_heights",
+    "draw_mission_files",
+    "draw_plan",
     "draw_plan_views",
     "draw_scene",
     "draw_schedule",
 ]
+
+
+def draw_plan(scenario: Scenario, plan: FormationPlan, folder: Path) -> None:
+    """Draw what is planned, before anybody flies it, into an existing folder. Raises OSError."""
+    draw_scene(plan, scenario, None, folder / "scene.png")
+    draw_plan_views(plan, scenario, None, folder / "plan_views.png")
+    draw_heights(plan, scenario, folder / "heights.png")
 
 
 def draw_all(scenario: Scenario, plan: FormationPlan, truths: Truths, series: Series, folder: Path) -> list[Path]:

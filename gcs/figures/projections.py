@@ -94,7 +94,8 @@ def project(
         axes.plot(end[across] * KM, end[up] * unit, marker="*", markersize=9, color=style.INK, linestyle="")
 
 
-def _map(axes: Axes, ground: Ground, environment: Environment) -> None:
+def draw_ground(axes: Axes, ground: Ground) -> None:
+    """The ground from above, by its heights."""
     axes.grid(visible=False)
     colours = LinearSegmentedColormap.from_list("ground", style.GROUND)
     axes.set_facecolor(style.GROUND[0])
@@ -103,6 +104,10 @@ def _map(axes: Axes, ground: Ground, environment: Environment) -> None:
         filled = axes.contourf(x, y, ground.z_m, levels=12, cmap=colours)
         axes.contour(x, y, ground.z_m, levels=filled.levels, colors=style.FAINT, linewidths=0.4)
         axes.figure.colorbar(filled, ax=axes, label="ground z (m)", shrink=0.8, pad=0.01)
+
+
+def _map(axes: Axes, ground: Ground, environment: Environment) -> None:
+    draw_ground(axes, ground)
     for radar in environment.radars:
         centre = (radar.x_m * KM, radar.y_m * KM)
         axes.add_patch(Circle(centre, radar.radius_m * KM, color=style.RADAR, alpha=0.35, linewidth=0))

@@ -91,10 +91,15 @@ def headline(figure: Figure, text: str) -> None:
 def vehicle_colours(scenario: Scenario) -> dict[int, Any]:
     """The colour of each vehicle by sysid, the same in every picture of a scenario."""
     sysids = sorted(vehicle.sysid for vehicle in scenario.vehicles)
-    if len(sysids) <= len(VEHICLES):
-        return dict(zip(sysids, VEHICLES, strict=False))
+    return dict(zip(sysids, colours(len(sysids)), strict=True))
+
+
+def colours(count: int) -> list[Any]:
+    """So many, to tell vehicles apart; of one scale where there are too many for that."""
+    if count <= len(VEHICLES):
+        return list(VEHICLES[:count])
     shades = matplotlib.colormaps["viridis"]
-    return {sysid: shades(0.95 * i / (len(sysids) - 1)) for i, sysid in enumerate(sysids)}
+    return [shades(0.95 * i / (count - 1)) for i in range(count)]
 
 
 def legend_beside(figure: Figure, handles: Sequence[Any]) -> None:

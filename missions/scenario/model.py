@@ -15,6 +15,7 @@ from missions.environment.terrain import NO_WAVE
 from missions.errors import InputError
 from missions.frame import LocalFrame
 from missions.scenario.aircraft import AirframeModel
+from missions.scenario.degrees import in_metres
 from missions.scenario.keys import Count, Keys, NotNegative, Number, Point, Positive, Vector
 from missions.scenario.network import ChannelModel, FailureModel, FormationModel, LinkModel
 from missions.scenario.places import (
@@ -119,6 +120,12 @@ class Scenario(Keys):
     limits: LimitsModel
     search: SearchModel = SearchModel()
     _raster: Raster | None = PrivateAttr(None)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _take_degrees(cls, data: Any) -> Any:
+        """Places may be given by latitude and longitude."""
+        return in_metres(data) if isinstance(data, dict) else data
 
     @model_validator(mode="before")
     @classmethod

@@ -6,12 +6,15 @@ from pydantic import Field, model_validator
 
 from missions.scenario.keys import Keys, Number, Positive, Range
 
+Latitude = Annotated[Number, Field(ge=-85, le=85)]
+Longitude = Annotated[Number, Field(ge=-180, le=180)]
+
 
 class OriginModel(Keys):
     """Where on the globe the local frame lies."""
 
-    lat_deg: Annotated[Number, Field(ge=-85, le=85)]
-    lon_deg: Annotated[Number, Field(ge=-180, le=180)]
+    lat_deg: Latitude
+    lon_deg: Longitude
     alt_m: Number = 0.0
     """AMSL altitude of z = 0."""
 

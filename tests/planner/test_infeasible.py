@@ -134,6 +134,14 @@ def test_a_path_too_short_says_by_how_much(open_scenario: Scenario) -> None:
     assert text == "is 5000 m shorter than it must be to arrive with the others"
 
 
+@pytest.mark.parametrize(("over_m", "said"), [(0.02, "0.1"), (3.14, "3.2"), (50.0, "50")])
+def test_nothing_is_said_to_be_0_m_over(open_scenario: Scenario, over_m: float, said: str) -> None:
+    path = found(open_scenario, LEVEL)
+    problem = path.problem._replace(bounds=path.problem.bounds._replace(y_max_m=10000.0 - over_m))
+    text = broken_limit(PathFound(problem, LEVEL, 2e9, 7, ()))
+    assert text.startswith(f"lies {said} m outside the area (north) at ")
+
+
 @pytest.mark.parametrize(("side", "limit", "value"), [("north", "y_max_m", 9950.0), ("west", "x_min_m", 3621.4)])
 def test_a_path_outside_the_area_says_where(open_scenario: Scenario, side: str, limit: str, value: float) -> None:
     path = found(open_scenario, LEVEL)

@@ -9,7 +9,7 @@ from gcs.check.flight import planned_flight
 from gcs.check.held import VehicleLimits, forbidden
 from missions.autopilot import Autopilot
 from missions.commands import Command
-from missions.fence import NO_FENCE, Fence, FenceCircle
+from missions.fence import NO_FENCE, Fence, FenceCircle, rally_items
 from missions.mission import Mission, MissionItem
 from missions.plan_type import PlanType
 from missions.scenario import Scenario
@@ -73,3 +73,15 @@ def test_a_px4_heeds_fences_by_another_parameter(
     plan = Plan(Mission((home, place(Command.NAV_WAYPOINT, 1200, 0, 100))), fence)
     vehicle = VehicleLimits({"GF_ACTION": action}, autopilot=Autopilot.px4)
     assert [problem.value for problem in forbidden(Path("one.plan"), plan, None, vehicle, calm)] == told
+
+
+@pytest.mark.parametrize(("limit_km", "told"), [(1.0, [3]), (2.0, []), (0.0, [])])
+def test_a_rally_point_beyond_those_that_count_is_told(
+    calm: Scenario, home: MissionItem, place: Place, limit_km: float, told: list[int]
+) -> None:
+    way = (SPEED, place(Command.NAV_WAYPOINT, 1200, 0, 100), place(Command.NAV_WAYPOINT, 1500, 300, 120))
+    plan = Plan(Mission((home, *way)), rally=rally_items([(home.lat_e7, home.lon_e7, 200.0)]))
+    vehicle = VehicleLimits({"RALLY_LIMIT_KM": limit_km})
+    problems = list(forbidden(Path("one.plan"), plan, planned_flight(plan, calm), vehicle, calm))
+    assert [problem.item for problem in problems] == told
+    assert all(problem.what == "rally point that does not count" for problem in problems)

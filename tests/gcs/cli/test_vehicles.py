@@ -98,6 +98,22 @@ def test_one_file_goes_to_the_vehicle_that_was_chosen(swarm: Any, run_folder: Pa
     assert swarm.json("upload", file, "--vehicle", "3") == {3: {"mission": len(leader)}}
 
 
+def test_a_folder_of_exported_files_goes_to_the_vehicles_that_they_are_named_for(
+    swarm: Any, skein: Any, run_folder: Path, tmp_path: Path
+) -> None:
+    assert skein("export", run_folder, "--format", "plan", "--frame", "relative", "--out", tmp_path).exit_code == 0
+    counts = swarm.json("upload", tmp_path)
+    held = swarm.json("download", "--out", tmp_path / "held", "--vehicle", "1-3")
+    for file in tmp_path.glob("*.plan"):
+        sysid = int(file.name.split("-")[0])
+        sent = read_plan(file)
+        assert read_plan(Path(held[sysid]["file"])) == sent
+        assert counts[sysid]["mission"] == len(sent.mission)
+        assert counts[sysid]["rally"] == 1
+    (tmp_path / "2-again.plan").write_bytes(next(tmp_path.glob("2-*.plan")).read_bytes())
+    assert "another file here is for vehicle 2, too" in refusal(swarm("upload", tmp_path))
+
+
 def test_parameters_are_listed_read_set_saved_and_loaded(swarm: Any, tmp_path: Path) -> None:
     everything = swarm.json("params", "list", "--vehicle", "1")[1]
     assert (

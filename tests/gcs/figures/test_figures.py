@@ -5,12 +5,15 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from gcs.figures import draw_all, draw_arms, draw_plan_views, draw_scene
+from gcs.figures import draw_all, draw_arms, draw_heights, draw_mission_files, draw_plan_views, draw_scene
+from gcs.figures.heights import profile
 from gcs.figures.style import DPI, WIDTH_IN, vehicle_colours, vehicle_handles
 from gcs.flight_record import FlightRecord
 from gcs.metrics import measure
+from gcs.vehicle_plans import vehicle_plans
 from missions.reference import Reference
 from missions.scenario import Scenario, load_scenario
+from missions.vehicle_plan import Plan
 from planner.formation_plan import FormationPlan
 from sitl.formation.graph import edges
 
@@ -79,6 +82,43 @@ def test_a_plan_can_be_shown_before_it_is_flown(
     for draw_one in (draw_scene, draw_plan_views):
         draw_one(straight_plan(radars), radars, None, tmp_path / "plan.png")
         assert_shows_something(tmp_path / "plan.png")
+
+
+def test_heights_are_drawn_of_one_of_several_and_of_many(
+    tmp_path: Path,
+    radars: Scenario,
+    few: Callable[[Scenario, int], Scenario],
+    straight_plan: Callable[[Scenario], FormationPlan],
+) -> None:
+    for count in (1, 4, 9):
+        scenario = few(radars, count)
+        draw_heights(straight_plan(scenario), scenario, tmp_path / "heights.png")
+        assert_shows_something(tmp_path / "heights.png")
+
+
+def test_a_profile_tells_the_least_clearance_after_the_climb_out(
+    radars: Scenario, few: Callable[[Scenario, int], Scenario], straight_plan: Callable[[Scenario], FormationPlan]
+) -> None:
+    scenario = few(radars, 1)
+    (reference,) = straight_plan(scenario).references(scenario).values()
+    one = profile(reference, scenario)
+    # Level ground and an even climb: the least is where the climb-out ends.
+    at_end = np.interp(scenario.limits.climb_out_m, one.s_m, one.way_m - one.ground_m)
+    assert one.clearance_m == pytest.approx(at_end, abs=1.0)
+    assert (one.lowest_m - one.ground_m).max() == scenario.limits.clearance_m
+
+
+def test_mission_files_are_drawn_with_fences_and_rally_points(
+    tmp_path: Path, radars: Scenario, straight_plan: Callable[[Scenario], FormationPlan]
+) -> None:
+    plans = {f"{one.sysid}-{one.name}": one.plan for one in vehicle_plans(radars, straight_plan(radars))}
+    draw_mission_files(plans, radars, tmp_path / "missions.png")
+    assert_shows_something(tmp_path / "missions.png")
+    before = imread(tmp_path / "missions.png")
+    bare = {name: Plan(plan.mission) for name, plan in plans.items()}
+    draw_mission_files(bare, radars, tmp_path / "missions.png")
+    after = imread(tmp_path / "missions.png")
+    assert before.shape != after.shape or not np.array_equal(before, after)
 
 
 def test_arms_are_compared_in_one_picture(
