@@ -53,7 +53,7 @@ def _table(table: dict[str, Any]) -> list[str]:
     for key, entry in table["properties"].items():
         if any(_references(entry)):
             continue
-        needed = key in table.get("required", ())
+        needed = key in table.get("required", ()) or any(key in one["required"] for one in table.get("anyOf", ())[:1])
         unless = "**needed**" if needed else _default(entry.get("default"))
         rows.append(f"| `{key}` | {_takes(entry)} | {unless} | {entry.get('description', '')} |")
     return rows if len(rows) > 2 else ["Tables only."]
@@ -75,6 +75,8 @@ def _takes(entry: dict[str, Any]) -> str:
         if "prefixItems" in entry:
             return f"[{', '.join(_takes(item) for item in entry['prefixItems'])}]"
         return f"list of {_takes(entry['items'])}"
+    if entry["type"] == "object":
+        return f"{{ {', '.join(f'{key} = ...' for key in entry['properties'])} }}"
     words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "`true`, `false`"}
     return words[entry["type"]] + _bounds(entry)
 

@@ -6,6 +6,7 @@ import textwrap
 from itertools import pairwise
 from typing import Any
 
+from missions.scenario.degrees import GeodeticPoint
 from missions.scenario.keys import Keys
 from missions.scenario.model import Scenario
 
@@ -15,6 +16,10 @@ NOT_ALWAYS = {
     "RouteModel": ("points", [{"required": ["points"]}, {"required": ["origin", "target"]}]),
 }
 """What the model makes for itself before it checks that it is there, by table: the key, and what must be given."""
+BY_DEGREES = {"VehicleModel": ("origin", "target"), "RouteModel": ("origin", "target", "points")}
+"""Keys with places that may be given by degrees, too, by table;"""
+STANDS_AT = ("RadarModel", "ObstacleModel")
+"""and tables of what stands at x_m and y_m, or at lat_deg and lon_deg."""
 
 
 def scenario_schema() -> dict[str, Any]:
@@ -32,7 +37,26 @@ def scenario_schema() -> dict[str, Any]:
     for name, (key, any_of) in NOT_ALWAYS.items():
         tables[name]["required"].remove(key)
         tables[name]["anyOf"] = any_of
+    _allow_degrees(schema["$defs"])
     return {"$schema": DIALECT, "title": "Skein scenario", **schema}
+
+
+def _allow_degrees(tables: dict[str, Any]) -> None:
+    """Let places be given as `missions.scenario.degrees` takes them."""
+    point = GeodeticPoint.model_json_schema()
+    for table, keys in BY_DEGREES.items():
+        for key in keys:
+            entry = tables[table]["properties"][key]
+            if "items" in entry:
+                entry["items"] = {"anyOf": [entry["items"], point]}
+            else:
+                entry["anyOf"].insert(1, point)
+    for table in STANDS_AT:
+        properties, required = tables[table]["properties"], tables[table]["required"]
+        for metres, degrees in (("x_m", "lat_deg"), ("y_m", "lon_deg")):
+            required.remove(metres)
+            properties[degrees] = {**point["properties"][degrees], "description": f"In place of `{metres}`."}
+        tables[table]["anyOf"] = [{"required": ["x_m", "y_m"]}, {"required": ["lat_deg", "lon_deg"]}]
 
 
 def _docstrings(model: type[Keys]) -> dict[str, str]:

@@ -30,6 +30,15 @@ def validator() -> Draft202012Validator:
     return Draft202012Validator(schema)
 
 
+def test_places_may_be_given_by_degrees(validator: Draft202012Validator) -> None:
+    values = tomllib.loads((PAGE.parent / "gap.toml").read_text(encoding="utf-8"))
+    assert any("lat_deg" in vehicle["target"] for vehicle in values["vehicles"])
+    values["obstacles"] = [{"lat_deg": 36.6, "lon_deg": -84.2, "radius_m": 10.0, "height_m": 60.0}]
+    assert [error.message for error in validator.iter_errors(values)] == []
+    del values["obstacles"][0]["lon_deg"]
+    assert list(validator.iter_errors(values))
+
+
 @pytest.mark.parametrize("name", shipped_scenarios())
 def test_the_scenarios_that_ship_are_valid(name: str, validator: Draft202012Validator) -> None:
     assert [error.message for error in validator.iter_errors(tomllib.loads(shipped(name)))] == []
