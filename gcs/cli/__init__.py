@@ -32,7 +32,7 @@ app = typer.Typer(
     help="Plan, upload and fly formation missions for fixed-wing aircraft over MAVLink.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
+    rich_markup_mode=None,  # its help takes three times as long to come
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 ON_THIS_MACHINE = (

@@ -80,7 +80,9 @@ def bench(
     chain: ChainOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Compare searches on many problems, at equal evaluations and at equal CPU time.
+    """Compare searches, stations and speeds with their peers.
+
+    Searches on many problems, at equal evaluations and at equal CPU time, unless an option names something else.
 
     Example: skein bench --quick --methods pso,skein --out /tmp/bench
     """

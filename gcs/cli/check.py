@@ -1,6 +1,5 @@
 """`skein check`: mission files judged before anybody flies them."""
 
-import asyncio
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -63,7 +62,9 @@ def check(
     figure: FigureOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Check mission files, each alone and all flown at once: ground, fence, turns, climbs, speeds, separation, range.
+    """Check mission files, each alone and all flown at once.
+
+    Ground, fence, turns, climbs, speeds, separation, range; and what a vehicle's parameters forbid.
 
     With --connect or --vehicle also what that vehicle forbids of them, by its parameters and its room for items.
 
@@ -120,6 +121,8 @@ def _draw(files: "Sequence[MissionFile]", scenario: "Scenario", figure: Path) ->
 
 def _limits_of(options: StationOptions) -> "VehicleLimits":
     """What one vehicle tells of itself. Raises InputError, TransferError."""
+    import asyncio
+
     from gcs.check.held import VehicleLimits
     from gcs.cli.params import values_of
     from gcs.transfers.capacity import capacities

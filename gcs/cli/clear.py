@@ -40,7 +40,9 @@ def clear(
     signing_key: KeyOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Clear missions, fences or rally points of all vehicles at once, and see that nothing is left.
+    """Clear missions, fences or rally points.
+
+    Of all vehicles at once; and see that nothing is left.
 
     Example: skein clear fence --vehicle 3
     """

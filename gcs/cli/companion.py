@@ -1,6 +1,5 @@
 """`skein companion`: beside one autopilot, keep its vehicle with the swarm."""
 
-import asyncio
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -37,7 +36,9 @@ def companion(
     vehicle: VehicleUrlOption = DEFAULT_URL,
     signing_key: KeyOption = None,
 ) -> None:
-    """Keep one vehicle with its neighbours: MAVLink to its autopilot, which knows no formation, corrections over Zenoh.
+    """Keep one vehicle with its neighbours, from beside it.
+
+    MAVLink to its autopilot, which knows no formation, corrections over Zenoh.
 
     It commands airspeeds while the vehicle flies its mission in AUTO, about one a second, and ends when that is over.
     Uploading and starting the mission is a station's business.
@@ -45,6 +46,8 @@ def companion(
     Example: skein companion runs/first --vehicle serial:///dev/ttyAMA0:921600 --slot 3 --zenoh field.toml
     """
     with exit_codes():
+        import asyncio
+
         from gcs.cli import output
         from gcs.cli.station import signing_of
         from gcs.companion.run import Companionship

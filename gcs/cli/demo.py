@@ -27,7 +27,9 @@ def demo(
     real_time: RealTimeOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Plan a scenario, upload it to simulated vehicles over MAVLink, fly it in formation, and report.
+    """Plan, upload, fly and report, on simulated vehicles.
+
+    The missions go over MAVLink, the vehicles keep formation over Zenoh.
 
     Example: skein demo vee --delay 0.4
     """

@@ -33,7 +33,9 @@ def download(
     signing_key: KeyOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Download mission, fence and rally points of all vehicles at once, each vehicle's as a .plan file.
+    """Download missions, fences and rally points.
+
+    Of all vehicles at once, each vehicle's as a .plan file.
 
     Example: skein download --out held --vehicle 2
     """

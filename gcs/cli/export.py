@@ -54,7 +54,9 @@ def export(
     landing: LandingOption = False,
     out: FolderOption = None,
 ) -> None:
-    """Write each vehicle's mission as a file; for maps, all vehicles together as well.
+    """Write missions as files for autopilots, stations and maps.
+
+    Each vehicle's is a file; for maps, all vehicles together as well.
 
     Example: skein export runs/first --format plan --autopilot px4 --frame relative
     """

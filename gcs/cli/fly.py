@@ -50,7 +50,9 @@ def fly(
     real_time: RealTimeOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Fly a planned run on simulated vehicles and report; an earlier flight in the same run is replaced.
+    """Fly a planned run, simulated or on vehicles that are there.
+
+    An earlier flight in the same run is replaced.
 
     With --connect, fly it on vehicles that are there: wait until they are ready, upload and verify, start all within a
     second, and keep them together by airspeeds (docs/companion.md).

@@ -55,7 +55,9 @@ def import_files(
     terrain: TerrainOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Read mission files of other ground stations, say what was read, and write them for vehicles and planning.
+    """Read mission files of other ground stations.
+
+    Say what was read, and write them for vehicles and planning.
 
     Example: skein import old.waypoints survey.plan --complex skip --out imported
     """

@@ -64,7 +64,9 @@ def margin(
     suggest: SuggestOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Say how late corrections may come before the formation rings, and which gains suit a delay.
+    """Say how late corrections may come, and which gains suit.
+
+    Beyond the margin the formation rings.
 
     Example: skein margin --linear --graph complete --k1 0.2 --k2 1 --k3 1
     """

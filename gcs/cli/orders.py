@@ -100,7 +100,9 @@ def abort(
     signing_key: KeyOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Bring every vehicle home and confirm each: RTL in the air, disarmed on the ground.
+    """Bring every vehicle home and confirm each.
+
+    RTL in the air, disarmed on the ground.
 
     Each is told as soon as it is heard; one that is missing holds up none of the others.
 

@@ -62,8 +62,9 @@ def rehearse(
     parquet: ParquetOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Fly a plan in this process, thousands of times faster than real time: bit for bit as `skein fly` flies it. Of one
-    flight nothing is kept without --out.
+    """Fly a plan in this process, thousands of times real time.
+
+    Bit for bit as `skein fly` flies it. Of one flight nothing is kept without --out.
 
     A campaign flies one plan many times on all cores, keeps a row a flight in runs.csv, and goes on where it was
     stopped when it is started again with the same --out.

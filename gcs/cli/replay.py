@@ -19,7 +19,9 @@ PaceOption = Annotated[
 
 
 def replay(files: FilesArgument, to: ToOption = "udpout://127.0.0.1:14550", speed: PaceOption = 1.0) -> None:
-    """Play telemetry logs back to a station, with the pace of their stamps.
+    """Play telemetry logs back to any ground station.
+
+    With the pace of their stamps.
 
     Example: skein replay RUN/logs/*.tlog --speed 10
     """

@@ -31,7 +31,9 @@ def report(
     no_delays: NoDelaysOption = False,
     jobs: JobsOption = None,
 ) -> None:
-    """Write a flown run as one HTML file that needs no network: checks, scene, figures, tables, how to fly it again.
+    """Write a flown run as one HTML page that needs no network.
+
+    It has checks, scene, figures, tables, and how to fly it again.
 
     Example: skein report runs/first
     """

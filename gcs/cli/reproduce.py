@@ -37,7 +37,9 @@ def reproduce(
     no_flights: NoFlightsOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Plan, fly and compare the paper's two scenarios as the paper does; figures 4 to 12, tables 3 and 6.
+    """Make the paper's figures 4 to 12 and tables 3 and 6 again.
+
+    Its two scenarios are planned, flown and compared as the paper does.
 
     docs/reproduction.md says what agrees with the paper, what cannot, and why.
 

@@ -12,7 +12,9 @@ MarkdownOption = Annotated[bool, typer.Option("--markdown", help="As a page for 
 
 
 def schema(out: FileOption = None, markdown: MarkdownOption = False) -> None:
-    """Print the JSON Schema of scenario files, with which editors complete and check them.
+    """Print the JSON Schema of scenario files, for editors.
+
+    With it they complete and check as you type.
 
     Example: skein schema --out scenario.schema.json
     """

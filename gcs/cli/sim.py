@@ -118,7 +118,9 @@ def sim(
     zenoh: ZenohOption = None,
     vehicle: VehicleOption = None,
 ) -> None:
-    """Leave a swarm running for any station: telemetry to UDP 14550, TCP at 5760, 5770, ... Ends with Ctrl-C.
+    """Leave a swarm running for any ground station.
+
+    Telemetry goes to UDP 14550, TCP is at 5760, 5770, ... Ends with Ctrl-C.
 
     Example: skein sim vee --count 3
     """

@@ -1,6 +1,5 @@
 """What the commands of an operator share: which links, which vehicles, and how results are shown."""
 
-import asyncio
 from collections.abc import Callable, Coroutine, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
@@ -111,6 +110,8 @@ def for_vehicles(
     Raises:
         InputError: a link cannot be opened, nobody is heard, or a vehicle is missing where all must be there.
     """
+    import asyncio
+
     wanted = options.sysids() if sysids is None else sysids
     show_results(title, asyncio.run(results_of(options, wanted, work, check, whoever)), options.json, words)
 
@@ -156,6 +157,8 @@ async def results_of(
 async def _with_whoever_is_there(
     fleet: "Fleet", sysids: Sequence[int], patience_s: float, work: "Work"
 ) -> dict[int, Any]:
+    import asyncio
+
     from gcs.transfers.errors import TransferError
     from missions.errors import InputError
 

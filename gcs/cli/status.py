@@ -1,7 +1,5 @@
 """`skein status`: what vehicles do, at a glance."""
 
-import asyncio
-
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.options import JsonOption
 from gcs.cli.station import (
@@ -23,13 +21,17 @@ def status(
     signing_key: KeyOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Say of every vehicle that is heard where it is, what it does, and what it holds.
+    """Say what each vehicle does.
+
+    Of every one that is heard: where it is, what it does, and what it holds.
 
     Of one that is missing or does not answer, it says that, and exits with 1.
 
     Example: skein status --json
     """
     with exit_codes():
+        import asyncio
+
         from gcs.cli import output
         from gcs.cli.tables import status_table
         from gcs.vehicle_report import vehicle_report

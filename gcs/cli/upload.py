@@ -46,7 +46,9 @@ def upload(
     signing_key: KeyOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Upload missions to all vehicles at once, read each back and compare; a .plan file's fence and rally points too.
+    """Upload missions, read each back and compare.
+
+    To all vehicles at once; a .plan file's fence and rally points too.
 
     Example: skein upload runs/first --vehicle 1-3
 

@@ -115,7 +115,7 @@ def start_sim(short_scenario: Path, state_home: Path, free_port: Callable[[], in
 @pytest.fixture(scope="module")
 def swarm(start_sim: Callable[..., Any]) -> Iterator[Sim]:
     """Three vehicles at ten times real time."""
-    with start_sim("--speed", 10) as sim:
+    with start_sim("--speed", 10, "--wipe") as sim:
         assert list(sim.tcp) == [1, 2, 3]
         yield sim
 
