@@ -116,7 +116,8 @@ def fly_swarm(
     stage = np.zeros((len(routes.home_m), 4))
     hearing = hearing_of(wiring, draws, ticks)
     route = np.arange(len(routes.home_m))
-    start = changed = 0
+    start = int(route[0])  # 0, but no literal: for that `fly_one` would be compiled once more
+    changed = 0
     while start < ticks and (underway(start, wiring, record) or start < record.arrived.max() + MORE_TICKS):
         # The delay is the lookahead: a vehicle may run ahead of its neighbours by so much.
         end = min(start + wiring.lookahead_ticks, ticks)
@@ -124,7 +125,7 @@ def fly_swarm(
             p = routes.changes[changed, 1]
             if stage[p, 0] == ON_PATH:
                 route[p] = routes.changes[changed, 2]
-                state[p, 18:21] = 0.0  # the place in the tables is found anew
+                state[p, 18] = state[p, 19] = state[p, 20] = 0.0  # the place in the tables is found anew
             changed += 1
         if changed < len(routes.changes):
             end = min(end, routes.changes[changed, 0])
