@@ -23,13 +23,15 @@ from missions.errors import InputError
 from missions.plan_type import PlanType
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
+from planner.reassign import reassigner_of
 from planner.verify import require, verify
 from sitl.config import Arm
 from sitl.formation.swarm_clock import longest_s
 from sitl.modes import Mode
+from sitl.places import what_losses_lead_to
 from sitl.reports import Ended
 from sitl.services.links import LOOPBACK
-from sitl.swarm import Swarm, SwarmOptions
+from sitl.swarm import Swarm, SwarmOptions, vehicle_configs
 from sitl.ticks import TICK_S, delay_ticks
 from sitl.zenoh_session import open_session
 
@@ -84,7 +86,10 @@ async def fly(
 
         announce(f"Launching {len(sysids)} endpoints")
         began = time.monotonic()
-        swarm = stack.enter_context(Swarm(scenario, _swarm_options(plan, run, options, link.port)))
+        how = _swarm_options(scenario, plan, run, options, link.port)
+        first, *_ = vehicle_configs(scenario, how)
+        what_losses_lead_to(first)  # found once, before vehicles are copied, of the losses that are scheduled
+        swarm = stack.enter_context(Swarm(scenario, how))
         vehicles = await fleet.wait_for(sysids, HEARTBEAT_TIMEOUT_S)
         startup_s = time.monotonic() - began
         run.write_json("endpoints.json", _addresses(swarm, link.port))
@@ -110,6 +115,7 @@ async def fly(
         announce(line)
     last = [endpoint.last for endpoint in swarm.endpoints.values() if endpoint.last is not None]
     ends = [report for report in last if isinstance(report, Ended)]
+    unforeseen = max((end.losses for end in ends), key=lambda losses: len(losses), default=())
     flight_sim_s = max(vehicle.simulated_ms for vehicle in vehicles) / 1000.0
     return FlightRecord(
         seed=plan.seed,
@@ -134,10 +140,13 @@ async def fly(
         behind_s=max((end.behind_s for end in ends), default=0.0),
         edges=tuple((tick, other, end.sysid, used) for end in last for tick, other, used in end.edges),
         yieldings={end.sysid: end.yieldings for end in last},
+        reassigned=what_losses_lead_to(first, unforeseen),
     )
 
 
-def _swarm_options(plan: FormationPlan, run: RunFolder, options: FlightOptions, port: int) -> SwarmOptions:
+def _swarm_options(
+    scenario: Scenario, plan: FormationPlan, run: RunFolder, options: FlightOptions, port: int
+) -> SwarmOptions:
     return SwarmOptions(
         seed=plan.seed,
         delay_s=options.delay_s,
@@ -147,6 +156,7 @@ def _swarm_options(plan: FormationPlan, run: RunFolder, options: FlightOptions, 
         stations=((LOOPBACK, port),),
         truth=run.truth,
         per_process=options.per_process,
+        reassign=reassigner_of(scenario, plan),
     )
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gcs.truth import FloatArray
+from missions.reassignment import Reassigned
 from sitl.avoidance.yielding import Yieldings
 from sitl.config import Arm
 from sitl.formation.graph import EdgeChange
@@ -55,6 +56,7 @@ class FlightRecord:
         delay_margin_s: the `aircraft` margin of the formation; infinite when any delay is stable.
         edges: changes of who makes use of whose corrections; a lost vehicle's own are not known.
         yieldings: who gave way to whom; a lost vehicle's own are not known.
+        reassigned: who took whose place.
         links: what came of the links, as their receivers counted; a lost vehicle's own are not known.
         shifts: by sysid: (n_tick, 2) rows of seconds that the schedule had been slowed and hurried; empty without a
             swarm clock.
@@ -73,6 +75,7 @@ class FlightRecord:
     delay_margin_s: float
     edges: tuple[EdgeChange, ...] = ()
     yieldings: Yieldings = field(default_factory=dict)
+    reassigned: Reassigned = field(default_factory=Reassigned)
     links: tuple[LinkReport, ...] = ()
     shifts: Mapping[int, FloatArray] = field(default_factory=dict)
     real_time: bool = False

@@ -8,9 +8,11 @@ from gcs.flight_record import Event, FlightRecord, Timing
 from gcs.truth import Truths
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
+from planner.reassign import reassigner_of
 from sitl.config import Arm
 from sitl.crew import KILLED
 from sitl.formation.network import complete
+from sitl.places import what_losses_lead_to
 from sitl.rehearsal import rehearse
 from sitl.swarm import SwarmOptions, vehicle_configs
 from sitl.ticks import TICK_S, delay_ticks
@@ -57,7 +59,8 @@ def rehearse_plan(
     Raises:
         InputError: a mission is not what a rehearsal flies.
     """
-    vehicles = vehicle_configs(scenario, SwarmOptions(options.seed, options.delay_s, options.arm))
+    reassign = reassigner_of(scenario, plan)
+    vehicles = vehicle_configs(scenario, SwarmOptions(options.seed, options.delay_s, options.arm, reassign=reassign))
     began = time.monotonic()
     flown = rehearse(vehicles, plan.missions)
     wall_s = time.monotonic() - began
@@ -84,5 +87,6 @@ def rehearse_plan(
         edges=tuple(flown.edges),
         shifts=flown.shifts,
         yieldings=flown.yieldings,
+        reassigned=what_losses_lead_to(vehicles[0]),
     )
     return flown.truth, record

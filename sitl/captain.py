@@ -360,11 +360,13 @@ class Captain:
         start = self.home_m if self.pilot.airborne else self.pilot.start.position_m
         return Itinerary(mission, flyer, start)
 
-    def adopt(self, itinerary: Itinerary) -> None:
-        """Take over a mission, to begin with its first item."""
+    def adopt(self, itinerary: Itinerary, under_way: PathStage | None = None) -> None:
+        """Take over a mission, to begin with its first item; or to go on along one of its paths that is flown."""
         self.itinerary = itinerary
         self._mark, self.complete = itinerary.first(), False
-        self._auto = None if self.pilot.airborne else itinerary.first_stage
+        self._auto = under_way if self.pilot.airborne else itinerary.first_stage
+        if under_way is not None:
+            self.pilot.change_path(under_way)
         self._parameters.tell("MIS_TOTAL", len(itinerary.mission))
 
     @property

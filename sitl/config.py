@@ -1,4 +1,5 @@
-"""What an endpoint is told when it starts. It learns a plan only as a mission, over MAVLink."""
+"""What an endpoint is told when it starts. It learns its plan only as a mission, over MAVLink; where places are
+reassigned it knows those of all, to find what a loss leads to."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -6,6 +7,7 @@ from typing import Literal
 from missions.airframe import Airframe
 from missions.environment import Terrain
 from missions.frame import LocalFrame
+from missions.reassignment import Reassign
 from sitl.formation.law import Gains
 from sitl.formation.network import Network
 
@@ -32,6 +34,7 @@ class VehicleConfig:
         swarm_clock: the schedule is slowed and hurried with the neighbours'.
         real_time: nobody waits for anybody; in lockstep otherwise.
         avoid_m: the safe distance, where vehicles give way to each other; None where they do not.
+        reassign: finds who takes whose place when some are lost; None where all keep their own.
     """
 
     sysid: int
@@ -50,3 +53,4 @@ class VehicleConfig:
     swarm_clock: bool = False
     real_time: bool = False
     avoid_m: float | None = None
+    reassign: Reassign | None = None

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 from pathlib import Path
 
+from missions.reassignment import Loss
 from sitl.avoidance.avoider import Heard
 from sitl.avoidance.intent import Intent
 from sitl.avoidance.yielding import Yielding
@@ -127,6 +128,15 @@ class Endpoint:
             self._vehicle.links = links
             for line in wrong:
                 self._vehicle.report(StatusText(SEVERITY_WARNING, line))
+
+    def count_lost(self, loss: Loss) -> None:
+        """All have agreed on a loss."""
+        with self._vehicle.lock:
+            self._vehicle.count_lost(loss)
+
+    def losses(self) -> tuple[Loss, ...]:
+        """Those that all have agreed on so far."""
+        return self._vehicle.losses()
 
     def edges(self) -> tuple[tuple[int, int, bool], ...]:
         """(tick, neighbour, whether its edge counted from then on), of each change so far."""

@@ -28,7 +28,7 @@ from sitl.formation.failures import within
 from sitl.formation.formation import Formation
 from sitl.formation.law import formation_acceleration
 from sitl.formation.swarm_clock import UNSHIFTED, Shifts, grown, own_needs, schedule_clock
-from sitl.guidance.path_errors import START, PathErrors, path_errors
+from sitl.guidance.path_errors import START, PathErrors, PathPoint, path_errors
 from sitl.guidance.path_law import (
     PLANNED_ROOM_M_S,
     SPEED_ROOM_M_S,
@@ -141,6 +141,11 @@ class Pilot:
         if isinstance(stage, PathStage):
             stage.started_tick = self.tick
             self.flight = at_point(self.flight, START)
+
+    def change_path(self, stage: PathStage) -> None:
+        """Go on along another path, which up to here is the same as that of the stage there is."""
+        self.stage = stage
+        self.flight = at_point(self.flight, PathPoint(self.flight.point.s_m, 0, 0, 0))
 
     def resume_schedule(self) -> None:
         """Let the schedule of the path begin where the aircraft is on it."""

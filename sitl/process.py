@@ -18,13 +18,18 @@ from sitl.ending import Ending
 from sitl.endpoint import Endpoint, EndpointConfig
 from sitl.formation.exchange import Exchange
 from sitl.formation.live_exchange import LiveExchange
+from sitl.loss_agreement import LossAgreement
+from sitl.loss_exchange import agree_over_zenoh
 from sitl.reports import Ended, Failed, Ready
 from sitl.serving import serving
+from sitl.ticks import TICK_S
 from sitl.zenoh_session import Peer, alive_key, discard_sockets, open_session
 
 NEIGHBOURS_TIMEOUT_S = 30.0
 OTHERS_TIMEOUT_S = 1.0
 """Who is not there by now is flown without, when a process is started again in flight."""
+PATIENCE_TICKS = round(10.0 / TICK_S)
+"""In real time, where who is silent may be back, nobody's place is given away sooner."""
 KNOWN_TICKS = 25
 """How often vehicles are told what has come of their links."""
 
@@ -80,6 +85,7 @@ def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connec
         clock = Clock(held=config.held, speed=config.speed, real_time=config.real_time)
         exchange = _exchange(config, session, endpoints, clock)
         intents = _intents(config, session, clock)
+        agreement = _agreement(config, session, exchange)
 
         def on_stop() -> None:
             exchange.stop()
@@ -111,7 +117,7 @@ def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connec
         with serving(crew):
             for endpoint in endpoints:
                 crew.report(Ready(endpoint.sysid, endpoint.links.tcp_port, endpoint.links.udp_port))
-            _fly(crew, exchange, intents, clock, config.endpoints[0])
+            _fly(crew, exchange, intents, agreement, clock, config)
         for endpoint in endpoints:
             try:
                 endpoint.close()
@@ -120,8 +126,8 @@ def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connec
         for endpoint in crew.flying.values():
             alive[endpoint.sysid].undeclare()
             links = exchange.reports(endpoint.sysid) + (intents.reports(endpoint.sysid) if intents else ())
-            edges, yieldings = endpoint.edges(), endpoint.yieldings()
-            crew.report(Ended(endpoint.sysid, endpoint.tick, links, clock.most_behind_s, edges, yieldings))
+            edges, yieldings, losses = endpoint.edges(), endpoint.yieldings(), endpoint.losses()
+            crew.report(Ended(endpoint.sysid, endpoint.tick, links, clock.most_behind_s, edges, yieldings, losses))
 
 
 def _exchange(config: ProcessConfig, session: zenoh.Session, endpoints: Sequence[Endpoint], clock: Clock) -> Exchange:
@@ -142,10 +148,34 @@ def _intents(config: ProcessConfig, session: zenoh.Session, clock: Clock) -> Int
     return IntentExchange(session, config.swarm, here, vehicle.network, now_ticks)
 
 
-def _fly(crew: Crew, exchange: Exchange, intents: IntentExchange | None, clock: Clock, first: EndpointConfig) -> None:
+def _agreement(config: ProcessConfig, session: zenoh.Session, exchange: Exchange) -> LossAgreement | None:
+    vehicle = config.endpoints[0].vehicle
+    if vehicle.reassign is None:
+        return None
+    here = [endpoint.vehicle.sysid for endpoint in config.endpoints]
+    patience_ticks = PATIENCE_TICKS if config.real_time else 0
+    return agree_over_zenoh(session, config.swarm, here, vehicle.network.sysids, exchange.inbox, patience_ticks)
+
+
+def _fly(
+    crew: Crew,
+    exchange: Exchange,
+    intents: IntentExchange | None,
+    agreement: LossAgreement | None,
+    clock: Clock,
+    config: ProcessConfig,
+) -> None:
     """Tick by tick until the clock is stopped."""
+    first = config.endpoints[0]
     tick, lookahead_ticks = first.start_tick, first.vehicle.network.lookahead_ticks
     everyone, lost, fallen = crew.flying.keys(), set[int](), set[int]()
+
+    def missing() -> set[int]:
+        return exchange.gone | {i for i in everyone - crew.flying.keys() if i not in fallen}
+
+    if agreement is not None:
+        # Others may wait for this process's word while it waits for their samples.
+        exchange.on_gone = lambda: agreement.miss(missing(), tick)
     while clock.wait_for(tick):
         # A neighbour needs a sample only so many ticks later: as fast as it goes, that many share a message. The first
         # goes at once, since after a restart the neighbours wait for it.
@@ -164,14 +194,22 @@ def _fly(crew: Crew, exchange: Exchange, intents: IntentExchange | None, clock: 
         exchange.gather(tick)
         if intents is not None and tick % PERIOD_TICKS == 0:
             intents.gather(tick)
+        loss = None
+        if agreement is not None:
+            agreement.miss(missing(), tick)
+            if not config.real_time:
+                exchange.wait_until(agreement.is_settled)
+            loss = agreement.agreed()
+        now_lost = missing()
         if clock.stopped:
             return
-        now_lost = exchange.gone | {i for i in everyone - crew.flying.keys() if i not in fallen}
         for endpoint in crew.flying.values():
             try:
                 if now_lost != lost:
                     endpoint.notice(now_lost, lost)
                     exchange.listen(endpoint.sysid, endpoint.delays)
+                if loss is not None:
+                    endpoint.count_lost(loss)
                 if intents is not None and tick % PERIOD_TICKS == 0:
                     endpoint.learn(intents.take(endpoint.sysid), now_lost)
                 endpoint.advance(exchange.heard_by(endpoint.sysid))

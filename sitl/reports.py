@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from missions.reassignment import Loss
 from sitl.avoidance.yielding import Yielding
 from sitl.formation.link_report import LinkReport
 
@@ -39,6 +40,7 @@ class Ended:
         behind_s: wall time by which its clock has fallen behind at the most, in real time.
         edges: (tick, neighbour, whether its edge counted from then on), of each change.
         yieldings: who was given way to.
+        losses: that were not scheduled, as the vehicles have agreed on them, where places are reassigned.
     """
 
     sysid: int
@@ -47,6 +49,7 @@ class Ended:
     behind_s: float = 0.0
     edges: tuple[tuple[int, int, bool], ...] = ()
     yieldings: tuple[Yielding, ...] = ()
+    losses: tuple[Loss, ...] = ()
 
 
 @dataclass(frozen=True)

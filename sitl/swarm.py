@@ -12,6 +12,7 @@ from pathlib import Path
 from types import TracebackType
 
 from missions.errors import InputError
+from missions.reassignment import Reassign
 from missions.scenario import Scenario
 from sitl.child import Endpoint, EndpointProcess, hatch
 from sitl.config import Arm, VehicleConfig
@@ -53,6 +54,7 @@ class SwarmOptions:
         per_process: vehicles that share a process; None chooses.
         zenoh: how vehicles on several machines meet; None for all on this one.
         here: system ids of the vehicles that run on this machine; None for all.
+        reassign: of the plan that is flown, where places are reassigned; None where they are not.
     """
 
     seed: int
@@ -71,6 +73,7 @@ class SwarmOptions:
     per_process: int | None = None
     zenoh: ZenohNetwork | None = None
     here: frozenset[int] | None = None
+    reassign: Reassign | None = None
 
 
 class Swarm:
@@ -248,6 +251,7 @@ def vehicle_configs(scenario: Scenario, options: SwarmOptions) -> list[VehicleCo
             swarm_clock=formation.swarm_clock and options.arm == "full",
             real_time=options.real_time,
             avoid_m=scenario.limits.separation_m if formation.avoidance else None,
+            reassign=options.reassign if options.arm == "full" else None,
         )
         for stand in everyone
     ]

@@ -9,6 +9,7 @@ from missions.errors import InputError
 from missions.fence import parse_fence
 from missions.mission import Mission, MissionItem
 from missions.plan_type import PlanType
+from missions.reassignment import Loss
 from sitl.avoidance.avoider import Heard
 from sitl.avoidance.intent import Intent
 from sitl.avoidance.yielding import Yielding
@@ -26,6 +27,7 @@ from sitl.lookout import Lookout
 from sitl.modes import Mode
 from sitl.parameters import Parameters, arduplane_parameters
 from sitl.pilot import Phase
+from sitl.places import Places
 from sitl.plan_memory import keep_plan, recall_plan
 from sitl.prearm import reason_not_to_arm
 from sitl.snapshot import Snapshot
@@ -64,6 +66,7 @@ class Vehicle:
         self._captain = Captain(config, self.parameters, self._report)
         self._pilot = self._captain.pilot
         self._lookout = Lookout(self._pilot, config, self._report)
+        self._places = Places(self._captain, config, self._report) if config.reassign is not None else None
         self._failsafes = Failsafes(self._captain, config, self.parameters)
         self._plans: dict[PlanType, tuple[MissionItem, ...]] = {PlanType.FENCE: (), PlanType.RALLY: ()}
         self._recall()
@@ -219,6 +222,15 @@ class Vehicle:
         self._pilot.formation.lose(lost)
         return self._pilot.formation.neighbours_at(self.tick)
 
+    def count_lost(self, loss: Loss) -> None:
+        """All have agreed on a loss: its place may be given to another."""
+        if self._places is not None:
+            self._places.lose(loss)
+
+    def losses(self) -> tuple[Loss, ...]:
+        """Those that all have agreed on so far."""
+        return tuple(self._places.unforeseen) if self._places is not None else ()
+
     def edges(self) -> tuple[tuple[int, int, bool], ...]:
         """(tick, neighbour, whether its edge counted from then on), of each change so far."""
         return tuple(self._pilot.formation.edges)
@@ -289,6 +301,8 @@ class Vehicle:
             pilot.feel()
         elif self._captain.armed and pilot.phase is Phase.PARKED:
             self._captain.launch()
+        if self._places is not None:
+            self._places.begin()
         self._lookout.begin()
         own = pilot.observe()
         self._truth.write(pilot.flight.air, pilot.shifts)

@@ -107,6 +107,11 @@ def intent_key(swarm: str, sysid: int) -> str:
     return f"skein/{swarm}/{sysid}/intent"
 
 
+def losses_key(swarm: str, sysid: int) -> str:
+    """Where a vehicle tells whom it misses."""
+    return f"skein/{swarm}/{sysid}/losses"
+
+
 def alive_key(swarm: str, sysid: int | str) -> str:
     """The liveliness token of a vehicle; sysid "*" for all."""
     return f"skein/{swarm}/{sysid}/alive"

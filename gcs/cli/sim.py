@@ -163,6 +163,8 @@ def sim(
                 zenoh=read_zenoh_file(zenoh) if zenoh else None,
                 here=frozenset(here) if here else None,
             )
+            if loaded.formation.reassign:
+                output.progress.print("formation.reassign: a simulation knows no plan; all keep their own places")
             if first_port:
                 require_free_tcp(first_port, count or len(loaded.vehicles))
             with Swarm(loaded, options) as swarm:

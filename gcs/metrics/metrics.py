@@ -14,6 +14,7 @@ from gcs.metrics.flight_limits import FlightLimits, flight_limits
 from gcs.metrics.formation_error import Edge, formation_error
 from gcs.metrics.graph_used import GraphUsed, graph_used
 from gcs.metrics.planned import Planned, what_was_planned
+from gcs.metrics.reassigned import moved, with_moves
 from gcs.metrics.scheduled import scheduled
 from gcs.metrics.separation import least_separation_m
 from gcs.metrics.series import Series
@@ -31,7 +32,8 @@ from sitl.scenario_network import network_of
 
 @dataclass(frozen=True)
 class VehicleMetrics:
-    """One vehicle. `fitness` and its terms are kilometres; `lost_s` is when it was lost, if it was."""
+    """One vehicle. `fitness` and its terms are kilometres; `lost_s` is when it was lost, if it was; `place` is whose
+    plan it flew in the end, and `planned_arrival_s` is that one's."""
 
     sysid: int
     name: str
@@ -44,6 +46,7 @@ class VehicleMetrics:
     arrival_s: float | None
     completed: bool
     lost_s: float | None
+    place: int
     items_uploaded: int | None
     items_verified: int | None
 
@@ -119,7 +122,7 @@ def measure(
         record: what else became of the flight.
         planned: of the plan, where it is at hand.
     """
-    planned = planned or what_was_planned(scenario, plan)
+    planned = with_moves(planned or what_was_planned(scenario, plan), record.reassigned)
     references = planned.references
     arrivals = {sysid: arrival(truth, references[sysid]) for sysid, truth in truths.items()}
     time = swarm_time(record.shifts) if record.shifts else None
@@ -148,7 +151,9 @@ def measure(
         ),
         formation=_formation(series, around, late, record, time),
         timing=record.timing,
-        events=_in_order(record.events, scheduled(scenario), yielded(record.yieldings), arrived),
+        events=_in_order(
+            record.events, scheduled(scenario), yielded(record.yieldings), moved(record.reassigned), arrived
+        ),
         graph=graph_used(record.edges),
         links=record.links,
         limits=tuple(
@@ -199,6 +204,7 @@ def _vehicle(uav: UavPlan, planned_s: float, end: Arrival | None, record: Flight
         arrival_s=end.time_s if end else None,
         completed=end is not None and end.time_s is not None,
         lost_s=record.lost.get(uav.sysid),
+        place=record.reassigned.place_of(uav.sysid),
         items_uploaded=record.items_uploaded.get(uav.sysid),
         items_verified=record.items_verified.get(uav.sysid),
     )

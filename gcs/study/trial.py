@@ -8,6 +8,7 @@ import numpy.typing as npt
 from gcs.metrics import Planned
 from gcs.metrics.arrival import arrival
 from gcs.metrics.formation_error import formation_error
+from gcs.metrics.reassigned import with_moves
 from gcs.metrics.separation import least_separation_m
 from gcs.metrics.tracks import flown_tracks
 from gcs.study.engine import Engine, engine_use
@@ -16,8 +17,10 @@ from gcs.truth import H, V, X
 from missions.scenario import Scenario
 from missions.scenario.network import ChannelModel, FailureModel, FormationModel
 from planner.formation_plan import FormationPlan
+from planner.reassign import reassigner_of
 from sitl.config import Arm, VehicleConfig
 from sitl.formation.graph import edges
+from sitl.places import what_losses_lead_to
 from sitl.rehearsal import Flown, rehearse
 from sitl.swarm import SwarmOptions, vehicle_configs
 
@@ -96,9 +99,11 @@ def fly_trial(scenario: Scenario, plan: FormationPlan, planned: Planned, trial: 
             "wind": scenario.wind.model_copy(update={"gusts": trial.gusts}),
         }
     )
-    options = SwarmOptions(trial.seed, trial.formation.delay_s, trial.arm)
+    reassign = reassigner_of(changed, plan)
+    options = SwarmOptions(trial.seed, trial.formation.delay_s, trial.arm, reassign=reassign)
     vehicles = vehicle_configs(changed, options)
-    return measured(rehearse(vehicles, plan.missions), changed, vehicles, planned)
+    flown_as = with_moves(planned, what_losses_lead_to(vehicles[0]))
+    return measured(rehearse(vehicles, plan.missions), changed, vehicles, flown_as)
 
 
 def measured(flown: Flown, scenario: Scenario, vehicles: list[VehicleConfig], planned: Planned) -> Outcome:

@@ -3,6 +3,7 @@ wire carries it (MODEL, section 6). Planner, endpoint and reports build it by th
 
 from missions.reference.path import FilletedPath, fillet
 from missions.reference.reference import Reference, ReferenceTables, build_reference
+from missions.reference.splice import spliced
 from missions.reference.wind_triangle import airspeed_on_track, ground_speed_on_track
 
 __all__ = [
@@ -13,4 +14,5 @@ __all__ = [
     "build_reference",
     "fillet",
     "ground_speed_on_track",
+    "spliced",
 ]

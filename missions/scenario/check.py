@@ -38,6 +38,14 @@ def _vehicles(scenario: Scenario) -> Iterator[str]:
 
 
 def _network(scenario: Scenario) -> Iterator[str]:
+    if scenario.formation.reassign:
+        if scenario.formation.swarm_clock:
+            yield "formation.reassign: places change at times that all know, and a swarm_clock shifts them; choose one"
+        if scenario.formation.avoidance:
+            yield (
+                "formation.reassign: others' intents of before a move would be given way to; leave avoidance out, the "
+                "moves themselves are checked for separation"
+            )
     known = {vehicle.sysid for vehicle in scenario.vehicles}
     named: list[tuple[str, Sequence[int]]] = []
     if not isinstance(graph := scenario.formation.graph, str):

@@ -30,6 +30,10 @@ class FormationModel(Keys):
     avoidance: Annotated[bool, Field(strict=True)] = False
     """Vehicles that will come nearer than `limits.separation_m` give way, beyond the plan."""
 
+    reassign: StrictBool = False
+    """Whether those who are left close the gap that a lost vehicle leaves, each flying to the place that an assignment
+    by squared distances gives it."""
+
     def is_pinned(self, sysid: int) -> bool:
         """Whether h_p is 1."""
         return self.pinned is None or sysid in self.pinned

@@ -32,6 +32,8 @@ class Exchange:
     Attributes:
         neighbours: those that are listened to in other processes.
         gone: vehicles of the swarm that have been there and are no more.
+        on_gone: called when one has gone.
+        inbox: what is to be done in the caller's thread; Zenoh's threads only put into it.
     """
 
     congestion = zenoh.CongestionControl.BLOCK
@@ -45,6 +47,8 @@ class Exchange:
     ) -> None:
         self.neighbours: tuple[int, ...] = ()
         self.gone: set[int] = set()
+        self.on_gone: Callable[[], None] = lambda: None
+        self.inbox: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._session = session
         self._swarm = swarm
         self._here = delays.keys()
@@ -61,8 +65,6 @@ class Exchange:
         self._own: dict[int, Correction] = {}
         self._unsent: dict[int, list[bytes]] = {sysid: [] for sysid in delays}
         self._doors: dict[int, Door[Correction]] = {}
-        # Zenoh's threads only put into the inbox what is to be done; all of it is done in the caller's thread.
-        self._inbox: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._publishers = {
             sysid: session.declare_publisher(
                 correction_key(swarm, sysid),
@@ -106,7 +108,7 @@ class Exchange:
         deadline = time.monotonic() + timeout_s
         while missing := set(self.neighbours) - self._present:
             try:
-                self._inbox.get(timeout=max(0.0, deadline - time.monotonic()))()
+                self.inbox.get(timeout=max(0.0, deadline - time.monotonic()))()
             except queue.Empty:
                 return missing
             if self._stopped:
@@ -126,17 +128,22 @@ class Exchange:
 
     def gather(self, tick: int) -> None:
         """Wait for all that is heard at a tick of neighbours that are there; no more once `stop` was called."""
-        while (self.gone or self._unheard) and not self._inbox.empty():  # is someone back, or there at last?
-            self._inbox.get()()
+        while (self.gone or self._unheard) and not self.inbox.empty():  # is someone back, or there at last?
+            self.inbox.get()()
         self._tick = tick
         for neighbour in self.neighbours:
             if neighbour in self._unheard:
                 continue
             needed = min(tick - self._least[neighbour], self._last_ticks.get(neighbour, tick))
             while self._newest[neighbour] < needed and neighbour not in self.gone and not self._stopped:
-                self._inbox.get()()
+                self.inbox.get()()
         for sysid, samples in self._samples.items():
             samples.pop(tick - self._most[sysid] - 1, None)
+
+    def wait_until(self, done: Callable[[], bool]) -> None:
+        """Take in what comes until something is done; no more once `stop` was called."""
+        while not done() and not self._stopped:
+            self.inbox.get()()
 
     def heard_by(self, sysid: int) -> dict[int, Correction]:
         """What comes to one of the process's vehicles at the tick gathered for: by neighbour, its sample of as many
@@ -159,7 +166,7 @@ class Exchange:
 
     def stop(self) -> None:
         """Wake a waiting `gather`, from any thread; it waits no more."""
-        self._inbox.put(self._note_stop)
+        self.inbox.put(self._note_stop)
 
     def _note_stop(self) -> None:
         self._stopped = True
@@ -175,6 +182,7 @@ class Exchange:
     def _note_gone(self, sysid: int) -> None:
         self._present.discard(sysid)
         self.gone.add(sysid)
+        self.on_gone()
 
     def _greet(self) -> None:
         """Say the newest again, to a neighbour that is back: it waits for us from now on, as we do for it."""
@@ -192,10 +200,10 @@ class Exchange:
         return dict(self._doors[neighbour].refused) if neighbour in self._doors else {}
 
     def _sample_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:
-        return lambda sample: self._inbox.put(partial(self._take_samples, neighbour, sample.payload.to_bytes()))
+        return lambda sample: self.inbox.put(partial(self._take_samples, neighbour, sample.payload.to_bytes()))
 
     def _put_liveliness(self, sample: zenoh.Sample) -> None:
         sysid = sysid_of(str(sample.key_expr), self._swarm)
         if sysid not in self._here:
             note = self._note_present if sample.kind == zenoh.SampleKind.PUT else self._note_gone
-            self._inbox.put(partial(note, sysid))
+            self.inbox.put(partial(note, sysid))

@@ -60,8 +60,8 @@ class LiveExchange(Exchange):
     def gather(self, tick: int) -> None:
         """Take in all that has come by now."""
         self._tick = tick
-        while not self._inbox.empty():
-            self._inbox.get()()
+        while not self.inbox.empty():
+            self.inbox.get()()
 
     def heard_by(self, sysid: int) -> dict[int, Correction]:
         """What begins to count at the tick gathered for, by neighbour of one of the process's vehicles."""
@@ -101,7 +101,7 @@ class LiveExchange(Exchange):
 
     def _sample_putter(self, neighbour: int) -> Callable[[zenoh.Sample], None]:
         def put(sample: zenoh.Sample) -> None:
-            self._inbox.put(partial(self._let_in, neighbour, sample.payload.to_bytes(), self._now_ticks()))
+            self.inbox.put(partial(self._let_in, neighbour, sample.payload.to_bytes(), self._now_ticks()))
 
         return put
 

@@ -48,16 +48,17 @@ STATE_FIELDS = 27
 
 
 class Routes(NamedTuple):
-    """What n vehicles fly. Tables of all vehicles stand one below the other; those of vehicle p are rows
-    [first[p], first[p + 1]).
+    """What n vehicles fly: routes 0 to n - 1, and more that some change to in flight, r in all. Tables of all routes
+    stand one below the other; those of route i are rows [first[i], first[i + 1]).
 
     Attributes:
         segments, altitude, schedule, airspeeds: as in `ReferenceTables`.
-        first_segment, first_altitude, first_schedule, first_airspeed: (n + 1,).
-        length_m, duration_s: (n,).
-        end_s_m: (n,) arc length of the last corner, where the circle begins.
-        circle: (n, 5) rows of a `Loiter`.
+        first_segment, first_altitude, first_schedule, first_airspeed: (r + 1,).
+        length_m, duration_s: (r,).
+        end_s_m: (r,) arc length of the last corner, where the circle begins.
+        circle: (r, 5) rows of a `Loiter`.
         home_m: (n, 3).
+        changes: (r - n, 3) tick, vehicle and route that it changes to if it is still on its path, in order of tick.
     """
 
     segments: FloatArray
@@ -73,6 +74,7 @@ class Routes(NamedTuple):
     end_s_m: FloatArray
     circle: FloatArray
     home_m: FloatArray
+    changes: IntArray
 
 
 class Law(NamedTuple):
@@ -113,12 +115,23 @@ def fly_swarm(
     state = np.zeros((len(routes.home_m), STATE_FIELDS))
     stage = np.zeros((len(routes.home_m), 4))
     hearing = hearing_of(wiring, draws, ticks)
-    start = 0
+    route = np.arange(len(routes.home_m))
+    start = int(route[0])  # 0, but no literal: for that `fly_one` would be compiled once more
+    changed = 0
     while start < ticks and (underway(start, wiring, record) or start < record.arrived.max() + MORE_TICKS):
         # The delay is the lookahead: a vehicle may run ahead of its neighbours by so much.
         end = min(start + wiring.lookahead_ticks, ticks)
+        while changed < len(routes.changes) and routes.changes[changed, 0] <= start:
+            p = routes.changes[changed, 1]
+            if stage[p, 0] == ON_PATH:
+                route[p] = routes.changes[changed, 2]
+                state[p, 18] = state[p, 19] = state[p, 20] = 0.0  # the place in the tables is found anew
+            changed += 1
+        if changed < len(routes.changes):
+            end = min(end, routes.changes[changed, 0])
         for p in range(len(routes.home_m)):
-            fly_one(p, start, end, routes, aircraft, wiring, law, normals, state, stage, hearing, avoiding, record)
+            r = route[p]
+            fly_one(p, r, start, end, routes, aircraft, wiring, law, normals, state, stage, hearing, avoiding, record)
         start = end
     return start
 
@@ -133,6 +146,7 @@ def underway(tick: int, wiring: Wiring, record: Record) -> bool:
 
 def fly_one(
     p: int,
+    route: int,
     start: int,
     end: int,
     routes: Routes,
@@ -146,7 +160,7 @@ def fly_one(
     avoiding: Avoiding | None,
     record: Record,
 ) -> None:
-    """Fly vehicle p through ticks [start, end).
+    """Fly vehicle p along a route through ticks [start, end).
 
     Args:
         state: (n, STATE_FIELDS) flights and shifts as of `start`.
@@ -155,8 +169,8 @@ def fly_one(
     flight = flight_in(state[p])
     slowed = Shift(state[p, 21], state[p, 22], state[p, 23])
     hurried = Shift(state[p, 24], state[p, 25], state[p, 26])
-    tables = tables_of(p, routes)
-    circle = routes.circle[p]
+    tables = tables_of(route, routes)
+    circle = routes.circle[route]
     loiter = Loiter(circle[0], circle[1], circle[2], circle[3], circle[4])
     own = law.gains[p]
     gains = Gains(own[0], own[1], own[2], own[3])
@@ -224,7 +238,7 @@ def fly_one(
                 record.used[link, tick] = used
             airspeed = airspeed_at(point.s_m, tables.airspeeds)
             if avoiding is not None:
-                end_s_m, follows = routes.end_s_m[p], not law.plain
+                end_s_m, follows = routes.end_s_m[route], not law.plain
                 here = Situation(position, errors, point, air.V, airspeed, clock, end_s_m, follows, tables)
                 tell_and_learn(p, tick, able, here, manoeuvre, aircraft.airframe, avoiding)
             if manoeuvre.action != FREE:
@@ -242,7 +256,7 @@ def fly_one(
                 errors = aside(errors, manoeuvre)
             wanted = path_accelerations(errors, ahead, air.V, aircraft.airframe)
             flight = moved(flight, wanted, aircraft)
-            if point.s_m >= routes.end_s_m[p]:
+            if point.s_m >= routes.end_s_m[route]:
                 record.arrived[p] = tick
                 stage[p, 0] = CIRCLING
                 stage[p, 1] = -1.0
@@ -261,15 +275,15 @@ def fly_one(
     state[p, 24], state[p, 25], state[p, 26] = hurried
 
 
-def tables_of(p: int, routes: Routes) -> ReferenceTables:
-    """The tables of one vehicle."""
+def tables_of(route: int, routes: Routes) -> ReferenceTables:
+    """The tables of one route."""
     return ReferenceTables(
-        routes.segments[routes.first_segment[p] : routes.first_segment[p + 1]],
-        routes.altitude[routes.first_altitude[p] : routes.first_altitude[p + 1]],
-        routes.schedule[routes.first_schedule[p] : routes.first_schedule[p + 1]],
-        routes.airspeeds[routes.first_airspeed[p] : routes.first_airspeed[p + 1]],
-        routes.length_m[p],
-        routes.duration_s[p],
+        routes.segments[routes.first_segment[route] : routes.first_segment[route + 1]],
+        routes.altitude[routes.first_altitude[route] : routes.first_altitude[route + 1]],
+        routes.schedule[routes.first_schedule[route] : routes.first_schedule[route + 1]],
+        routes.airspeeds[routes.first_airspeed[route] : routes.first_airspeed[route + 1]],
+        routes.length_m[route],
+        routes.duration_s[route],
     )
 
 

@@ -11,18 +11,25 @@ from missions.mission import Mission
 from sitl.captain import Captain
 from sitl.config import VehicleConfig
 from sitl.parameters import Parameters, arduplane_parameters
+from sitl.places import from_tick, what_losses_lead_to
 from sitl.rehearsal.kernel import Routes
 from sitl.stages.path import PathStage
 from sitl.store import Store
 
 
 def routes_of(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission]) -> Routes:
-    """The missions of vehicles as tables, built as their endpoints build them.
+    """The missions of vehicles as tables, built as their endpoints build them, and the places that they change to.
 
     Raises:
         InputError: a mission cannot be flown, or is not one path with a loiter at its end; it names the vehicle.
     """
     stages = [_stage(vehicle, missions[vehicle.sysid]) for vehicle in vehicles]
+    rows, changes = {vehicle.sysid: p for p, vehicle in enumerate(vehicles)}, []
+    for move in sorted(what_losses_lead_to(vehicles[0]).moves, key=from_tick):
+        row = rows[move.sysid]
+        ended = _stage(vehicles[row], move.mission)
+        changes.append((from_tick(move), row, len(stages)))
+        stages.append(stages[row].onto(move.reference, ended, 0.0))
     tables = [stage.tables for stage in stages]
     segments, first_segment = _stacked([one.segments for one in tables])
     altitude, first_altitude = _stacked([one.altitude for one in tables])
@@ -42,6 +49,7 @@ def routes_of(vehicles: Sequence[VehicleConfig], missions: Mapping[int, Mission]
         end_s_m=np.array([stage.reference.path.corner_s_m[-1] for stage in stages]),
         circle=np.array([stage.final_loiter() for stage in stages]),
         home_m=np.array([_captain(vehicle).home_m for vehicle in vehicles]),
+        changes=np.array(changes, dtype=np.int64).reshape(-1, 3),
     )
 
 

@@ -98,16 +98,34 @@ class PathStage:
         if self._takeoff is None and s_m < self._next_s_m:
             return []
         reached = []
+        seqs = self.reference.corner_seq
         if self._takeoff is not None and (z_m >= self._takeoff.z_m or s_m >= self._next_s_m):
             reached.append(self._takeoff.seq)
             self._takeoff = None
         while s_m >= self._next_s_m:
-            reached.append(self.reference.corner_seq[self._next_corner])
+            here = self._next_corner
+            if here + 1 == len(seqs) or seqs[here + 1] != seqs[here]:  # else the item is only begun
+                reached.append(seqs[here])
             self._next_corner += 1
             self.done = self._next_corner == len(self._corner_s_m)
             self.on_final = self.lands and self._next_corner == len(self._corner_s_m) - 1
             self._next_s_m = math.inf if self.done or self.on_final else self._corner_s_m[self._next_corner]
         return reached
+
+    def onto(self, reference: Reference, other: "PathStage", s_m: float) -> "PathStage":
+        """The stage along a reference that begins as this one's and ends as another stage's, at an arc length."""
+        marks = dict(zip(other.reference.corner_seq[1:], other._marks, strict=True))
+        changed = PathStage(
+            reference,
+            [marks.get(seq, other._marks[0]) for seq in reference.corner_seq[1:]],
+            other._after,
+            loiter_seq=other.loiter_seq,
+            lands=other.lands,
+        )
+        changed.passed(s_m, math.inf)
+        changed._takeoff = self._takeoff
+        changed.started_tick = self.started_tick
+        return changed
 
     def final_loiter(self) -> Loiter:
         """The circle at its end."""

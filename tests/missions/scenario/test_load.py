@@ -44,6 +44,8 @@ def test_five_scenarios_ship() -> None:
         ("radius_m = 1500.0", "radious_m = 1500.0", "radars[0].radious_m: unknown key; did you mean radius_m?"),
         ("delay_s = 0.2", "delay_s = 1e9", "formation.delay_s: must be <= 60"),
         ("k0 = 0.01", "k0 = 0.01\navoidance = 1", "formation.avoidance: must be true or false, got 1"),
+        ("k0 = 0.01", "k0 = 0.01\nreassign = true\nswarm_clock = true", "formation.reassign: places change at times"),
+        ("k0 = 0.01", "k0 = 0.01\nreassign = true\navoidance = true", "formation.reassign: others' intents"),
         ("k0 = 0.01", "k0 = 0.01\npinned = [1.5]", "formation.pinned[0]: must be a whole number, got 1.5"),
         ("seed = 1", "seed = 1.5", "seed: must be a whole number, got 1.5"),
     ],
