@@ -31,7 +31,7 @@ KEYS = {
 }  # fmt: skip
 MORE_KEYS = {
     "": {"arm", "limits", "graph", "links", "real_time", "behind_s"},
-    "vehicles": {"lost_s"},
+    "vehicles": {"lost_s", "place"},
     "formation": {"clearance_margin_m", "min_wall_m", "refused_samples", "measured_delay_s", "slowed_s", "hurried_s"},
 }
 Truths = dict[int, np.ndarray]
