@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 from matplotlib import get_data_path
 
-DOCS = Path(__file__).parents[1] / "docs"
+DOCS = Path(__file__).parents[3] / "docs"
 GUIDE = DOCS / "operators.md"
 PORT = "14550"
 """In the guide; another one when it is run."""
