@@ -76,10 +76,10 @@ async def fly(
         TransferError: a mission could not be brought to a vehicle.
     """
     require(verify(plan, scenario))
-    run.begin_flight()
     sysids = [uav.sysid for uav in plan.uavs]
     start_s = time.time()
     async with contextlib.AsyncExitStack() as stack:
+        stack.enter_context(run.flying())
         fleet = await stack.enter_async_context(Fleet(lambda sysid: TelemetryLog(run.logs / f"{sysid}.tlog", start_s)))
         link = await UdpLink.open()
         fleet.attach(link)
@@ -141,6 +141,7 @@ async def fly(
         edges=tuple((tick, other, end.sysid, used) for end in last for tick, other, used in end.edges),
         yieldings={end.sysid: end.yieldings for end in last},
         reassigned=what_losses_lead_to(first, unforeseen),
+        losses=unforeseen,
     )
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gcs.truth import FloatArray
-from missions.reassignment import Reassigned
+from missions.reassignment import Loss, Reassigned
 from sitl.avoidance.yielding import Yieldings
 from sitl.config import Arm
 from sitl.formation.graph import EdgeChange
@@ -57,6 +57,7 @@ class FlightRecord:
         edges: changes of who makes use of whose corrections; a lost vehicle's own are not known.
         yieldings: who gave way to whom; a lost vehicle's own are not known.
         reassigned: who took whose place.
+        losses: that were not scheduled, as the vehicles have agreed on them, where places are reassigned.
         links: what came of the links, as their receivers counted; a lost vehicle's own are not known.
         shifts: by sysid: (n_tick, 2) rows of seconds that the schedule had been slowed and hurried; empty without a
             swarm clock.
@@ -76,6 +77,7 @@ class FlightRecord:
     edges: tuple[EdgeChange, ...] = ()
     yieldings: Yieldings = field(default_factory=dict)
     reassigned: Reassigned = field(default_factory=Reassigned)
+    losses: tuple[Loss, ...] = ()
     links: tuple[LinkReport, ...] = ()
     shifts: Mapping[int, FloatArray] = field(default_factory=dict)
     real_time: bool = False

@@ -10,12 +10,13 @@ import itertools
 import json
 import shutil
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from gcs.export import ExportOptions, export
+from gcs.file_lock import lock
 from missions.elevation import write_local_raster
 from missions.errors import InputError
 from missions.scenario import Scenario, parse_scenario
@@ -92,6 +93,23 @@ class RunFolder:
             reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
             raise InputError(f"{file}: {reason}; is {self.path} a run? `skein plan` makes one") from None
         return parse_scenario(text, str(file), self.path, self.raster.absolute()), load_plan(self.path / "plan.json")
+
+    @contextlib.contextmanager
+    def flying(self) -> Iterator[None]:
+        """Make room for a flight, and keep others from flying this run until the block ends.
+
+        Raises:
+            InputError: it is being flown, or the folder cannot be written to.
+        """
+        try:
+            file = (self.path / ".lock").open("ab")
+        except OSError as error:
+            raise _unwritable(self.path, error) from None
+        with file:
+            if not lock(file):
+                raise InputError(f"{self.path}: is being flown already; wait for that, or plan another run with --out")
+            self.begin_flight()
+            yield
 
     def begin_flight(self) -> None:
         """Make room for a flight; an earlier one of this run is removed.

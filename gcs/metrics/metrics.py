@@ -23,6 +23,7 @@ from gcs.metrics.swarm_time import SwarmTime, swarm_time
 from gcs.metrics.tracks import flown_tracks
 from gcs.metrics.yielded import yielded
 from gcs.truth import H, Truths, trajectory_sha256
+from missions.reassignment import Reassigned
 from missions.scenario import Scenario
 from planner.formation_plan import FitnessTerms, FormationPlan, UavPlan
 from sitl.config import Arm
@@ -49,6 +50,14 @@ class VehicleMetrics:
     place: int
     items_uploaded: int | None
     items_verified: int | None
+
+
+@dataclass(frozen=True)
+class AgreedLoss:
+    """Vehicles that count as lost from a time on, as those who are left have agreed; no schedule has foreseen it."""
+
+    t_s: float
+    gone: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -95,6 +104,7 @@ class Metrics:
     timing: Timing
     events: tuple[Event, ...]
     graph: tuple[GraphUsed, ...]
+    losses: tuple[AgreedLoss, ...]
     links: tuple[LinkReport, ...]
     limits: tuple[FlightLimits, ...]
 
@@ -155,6 +165,7 @@ def measure(
             record.events, scheduled(scenario), yielded(record.yieldings), moved(record.reassigned), arrived
         ),
         graph=graph_used(record.edges),
+        losses=tuple(AgreedLoss(loss.t_s, tuple(sorted(loss.gone))) for loss in record.losses),
         links=record.links,
         limits=tuple(
             flight_limits(sysid, truth[airborne_row(truth[:, : H + 1], scenario) or 0 : _rows(arrivals[sysid])])
@@ -164,9 +175,16 @@ def measure(
     return metrics, series
 
 
-def series_of(scenario: Scenario, plan: FormationPlan, truths: Truths, edges: Sequence[Edge], shifts: Truths) -> Series:
+def series_of(
+    scenario: Scenario,
+    plan: FormationPlan,
+    truths: Truths,
+    edges: Sequence[Edge],
+    shifts: Truths,
+    reassigned: Reassigned,
+) -> Series:
     """What `measure` tells over time, by itself."""
-    planned = what_was_planned(scenario, plan)
+    planned = with_moves(what_was_planned(scenario, plan), reassigned)
     arrivals = {sysid: arrival(truth, planned.references[sysid]) for sysid, truth in truths.items()}
     return _series(planned, truths, edges, arrivals, swarm_time(shifts) if shifts else None)
 

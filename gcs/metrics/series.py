@@ -36,8 +36,9 @@ class Series:
 
     @cached_property
     def planned_separation_m(self) -> FloatArray:
-        """(n_tick,) the least between any two vehicles of the plan; NaN for fewer than two."""
-        return least_separation_m(self.tracks.planned_m)
+        """(n_tick,) the least between any two vehicles of the plan that are not lost; NaN for fewer than two."""
+        tracks = self.tracks
+        return least_separation_m(np.where(np.isnan(tracks.flown_m), np.nan, tracks.planned_m))
 
     @cached_property
     def schedule(self) -> Schedule:

@@ -9,9 +9,13 @@ from gcs.metrics import Check, Metrics, Series, checks, series_of
 from gcs.run_folder import RunFolder
 from gcs.truth import Truths, read_shifts, read_truths
 from missions.errors import InputError
+from missions.reassignment import Loss, Reassigned
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
+from planner.reassign import reassigner_of
 from sitl.formation.graph import edges
+from sitl.places import what_losses_lead_to
+from sitl.swarm import SwarmOptions, vehicle_configs
 
 
 @dataclass(frozen=True)
@@ -53,9 +57,8 @@ def read_flown_run(path: Path) -> FlownRun:
     truths = read_truths(run.truth, [sysid for sysid in sysids if (run.truth / f"{sysid}.f64").exists()])
     if not truths:
         raise InputError(f"{run.truth}: holds no vehicle's truth; fly the run again with `skein fly`")
-    series = series_of(
-        scenario, plan, truths, edges(scenario.formation.graph, sysids), read_shifts(run.truth, truths)
-    )  # fmt: skip
+    graph, shifts = edges(scenario.formation.graph, sysids), read_shifts(run.truth, truths)
+    series = series_of(scenario, plan, truths, graph, shifts, _reassigned(scenario, plan, metrics))
     return FlownRun(
         name=path.resolve().name,
         text=run.scenario.read_text(encoding="utf-8"),
@@ -66,6 +69,13 @@ def read_flown_run(path: Path) -> FlownRun:
         series=series,
         checks=checks(metrics, scenario),
     )
+
+
+def _reassigned(scenario: Scenario, plan: FormationPlan, metrics: Metrics) -> Reassigned:
+    """Who took whose place in the flight."""
+    options = SwarmOptions(metrics.seed, metrics.delay_s, metrics.arm, reassign=reassigner_of(scenario, plan))
+    first, *_ = vehicle_configs(scenario, options)
+    return what_losses_lead_to(first, [Loss(loss.t_s, frozenset(loss.gone)) for loss in metrics.losses])
 
 
 def _metrics(file: Path) -> Metrics:

@@ -74,11 +74,14 @@ def write_page(runs: Sequence[tuple[FlownRun, Sequence[DelayPoint]]], file: Path
         title=" and ".join(dict.fromkeys(view.run.scenario.name for view in views)),
         plotly=get_plotlyjs(),
         versions=[(name, version(name)) for name in PACKAGES] + [("Python", platform.python_version())],
-        none=NONE,
+        dash=NONE,
     )
+    unfinished = file.with_name(f".{file.name}.part")
     try:
-        file.write_text(page, encoding="utf-8")
+        unfinished.write_text(page, encoding="utf-8")
+        unfinished.replace(file)  # an earlier page is kept until this one is whole
     except OSError as error:
+        unfinished.unlink(missing_ok=True)
         raise InputError(f"{file}: {error.strerror}; name another file with --out") from None
 
 

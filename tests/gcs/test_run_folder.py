@@ -42,3 +42,14 @@ def test_a_run_without_its_ground_says_what_is_missing(run: tuple[RunFolder, Sce
     folder.raster.unlink()
     with pytest.raises(InputError, match=r"scenario\.toml: terrain\.raster: .*terrain\.npz: no such file"):
         folder.read()
+
+
+def test_a_run_is_flown_once_at_a_time(tmp_path: Path) -> None:
+    run = RunFolder(tmp_path)
+    with run.flying():
+        (run.truth / "1.f64").write_bytes(b"of the first")
+        with pytest.raises(InputError, match="is being flown already"), run.flying():
+            pass
+        assert (run.truth / "1.f64").read_bytes() == b"of the first"
+    with run.flying():
+        assert not any(run.truth.iterdir())

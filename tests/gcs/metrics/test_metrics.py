@@ -30,7 +30,7 @@ KEYS = {
     "events": {"t_s", "sysid", "what"},
 }  # fmt: skip
 MORE_KEYS = {
-    "": {"arm", "limits", "graph", "links", "real_time", "behind_s"},
+    "": {"arm", "limits", "graph", "links", "losses", "real_time", "behind_s"},
     "vehicles": {"lost_s", "place"},
     "formation": {"clearance_margin_m", "min_wall_m", "refused_samples", "measured_delay_s", "slowed_s", "hurried_s"},
 }

@@ -8,22 +8,24 @@ from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from gcs.cli import app
 from gcs.metrics import Check
 from gcs.rehearsal import RehearsalOptions, rehearse_plan
-from gcs.report import write_report
+from gcs.report import report_on, write_report
 from gcs.report_page import FlownRun, read_flown_run, write_page
 from gcs.report_page.delays import delay_curve, delay_trials_of
 from gcs.report_page.page import CheckRow, rows_of
 from gcs.run_folder import RunFolder
 from gcs.truth import write_truths
 from missions.errors import InputError
-from missions.scenario import Scenario
+from missions.scenario import Scenario, parse_scenario, read_scenario_text
 from planner.formation_plan import FormationPlan
 from planner.jobs.processes import Processes
+from planner.plan import plan
 
 
 @pytest.fixture(scope="module")
@@ -123,6 +125,24 @@ def test_the_flight_lies_on_the_curve_of_its_rehearsals(run: FlownRun) -> None:
     curve = dict(delay_curve(run, trials, Processes(1), lambda: told.append(None)))
     assert curve[run.metrics.delay_s] == run.metrics.formation.rms_error_m
     assert len(told) == len(curve) == len(trials) > 1
+
+
+def test_a_flight_is_drawn_against_the_places_that_were_taken(tmp_path: Path) -> None:
+    text = read_scenario_text("vee")[0].replace("[formation]", "[formation]\nreassign = true")
+    text += '\n[[failures]]\nwhat = "kill"\nat_s = 100.0\nvehicles = [3]\n'
+    scenario = parse_scenario(text, "vee.toml")
+    planned = plan(scenario)
+    run = RunFolder(tmp_path)
+    run.write_plan(text, scenario, planned)
+    run.begin_flight()
+    truths, record = rehearse_plan(scenario, planned, RehearsalOptions(1, 0.2))
+    write_truths(truths, run.truth)
+    run.write_json("metrics.json", report_on(scenario, planned, truths, record).metrics)
+    flown = read_flown_run(tmp_path)
+    assert any(vehicle.place != vehicle.sysid for vehicle in flown.metrics.vehicles)
+    assert flown.series.error.overall_rms_m == flown.metrics.formation.rms_error_m
+    apart_m = flown.series.planned_separation_m
+    assert np.nanmin(apart_m) > scenario.limits.separation_m
 
 
 def test_what_fell_short_comes_first(run: FlownRun, tmp_path: Path) -> None:
