@@ -4,9 +4,12 @@ import asyncio
 import contextlib
 import math
 import time
-from collections.abc import Coroutine
+from collections.abc import Awaitable, Callable, Coroutine, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, TypeVar
+
+import zenoh
 
 from gcs.delay_margin import delay_margin_s
 from gcs.fleet import Fleet
@@ -61,6 +64,28 @@ class FlightOptions:
     per_process: int | None = None
 
 
+@dataclass(frozen=True)
+class Cockpit:
+    """What a flight is steered by.
+
+    Attributes:
+        swarm, fleet: the endpoints, and how the station reaches them.
+        clock: theirs.
+        session: on their network.
+        statuses: what the station knows of each vehicle, kept up to date.
+    """
+
+    swarm: Swarm
+    fleet: Fleet
+    clock: SwarmClock
+    session: zenoh.Session
+    statuses: Sequence[VehicleStatus]
+
+
+Steer = Callable[[Cockpit], Awaitable[None]]
+"""Called when the clocks have been released; the flight lasts until it returns."""
+
+
 async def fly(
     scenario: Scenario,
     plan: FormationPlan,
@@ -68,8 +93,16 @@ async def fly(
     options: FlightOptions,
     announce: Announce,
     display: Display,
+    steer: Steer | None = None,
 ) -> FlightRecord:
     """Fly a plan on the scenario's simulated vehicles; truth and logs go to the run's folder.
+
+    Args:
+        scenario, plan: what to fly.
+        run: where it is kept.
+        options: how it is flown.
+        announce, display: for people.
+        steer: who steers the flight; None for nobody: it ends when all have arrived.
 
     Raises:
         InputError: the plan does not verify, or an endpoint cannot start or be reached.
@@ -108,7 +141,7 @@ async def fly(
 
         announce("Releasing the clock")
         began = time.monotonic()
-        events, lost = await _fly_held(scenario, plan, swarm, fleet, display, announce, options.real_time)
+        events, lost = await _fly_held(scenario, plan, swarm, fleet, display, announce, options.real_time, steer)
         flight_wall_s = time.monotonic() - began
 
     for line in fleet.complaints():
@@ -187,6 +220,7 @@ async def _fly_held(
     display: Display,
     announce: Announce,
     real_time: bool,
+    steer: Steer | None,
 ) -> tuple[list[Event], dict[int, float]]:
     """Release the clocks, watch, and stop them; returns the events and when each lost vehicle was lost."""
     references = plan.references(scenario)
@@ -199,11 +233,28 @@ async def _fly_held(
     with open_session(swarm.station_peer) as session:
         clock = SwarmClock(session, swarm.name, swarm.endpoints)
         await asyncio.to_thread(clock.start if real_time else clock.release, swarm.endpoints)
-        events = await watch_flight(statuses, fleet.vehicles, swarm.endpoints, display, fleet.check, announce)
+        watch = partial(watch_flight, statuses, fleet.vehicles, swarm.endpoints, display, fleet.check, announce)
+        if steer is None:
+            events = await watch()
+        else:
+            events = await _steered(steer(Cockpit(swarm, fleet, clock, session, statuses)), watch)
         lost = {status.sysid: status.time_s for status in statuses if status.lost is not None}
         with contextlib.suppress(InputError):  # who does not answer is ended with the swarm
             await asyncio.to_thread(clock.stop, swarm.endpoints.keys() - lost.keys())
     return events, lost
+
+
+async def _steered(steering: Awaitable[None], watch: Callable[[asyncio.Event], Awaitable[list[Event]]]) -> list[Event]:
+    """Watch while somebody steers, until that ends, in whatever way."""
+    ended = asyncio.Event()
+    steerer = asyncio.ensure_future(steering)
+    steerer.add_done_callback(lambda _: ended.set())
+    try:
+        events = await watch(ended)
+    finally:
+        steerer.cancel()
+    await steerer
+    return events
 
 
 def _addresses(swarm: Swarm, port: int) -> dict[str, object]:

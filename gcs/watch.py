@@ -83,6 +83,7 @@ async def watch_flight(
     display: Display,
     check: Callable[[], None],
     announce: Announce,
+    until: asyncio.Event | None = None,
 ) -> list[Event]:
     """Watch until every vehicle has arrived or was lost, or it is no use to wait longer.
 
@@ -92,6 +93,7 @@ async def watch_flight(
         display: called ten times a second with the statuses.
         check: called as often; raises when it is no use to go on.
         announce: called with who falls silent, and who answers again.
+        until: of a flight that somebody steers: it lasts until this is set, whatever the vehicles do.
 
     Returns:
         What happened, in order.
@@ -104,6 +106,11 @@ async def watch_flight(
                 events.extend(_news(status, links[status.sysid], endpoints[status.sysid], announce))
         display(statuses)
         check()
+        if until is not None:
+            if until.is_set():
+                return events
+            await asyncio.sleep(PERIOD_S)
+            continue
         left = [status for status in statuses if status.lost is None]
         flying = [status for status in left if not status.arrived]
         # In lockstep vehicles may be some ticks apart: all are to live to see the last one's arrival.

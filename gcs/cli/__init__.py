@@ -6,6 +6,7 @@ from gcs.cli.bench import bench
 from gcs.cli.check import check
 from gcs.cli.clear import clear
 from gcs.cli.companion import companion
+from gcs.cli.console import console
 from gcs.cli.demo import demo
 from gcs.cli.download import download
 from gcs.cli.export import export
@@ -43,6 +44,7 @@ ON_THIS_MACHINE = (
     fly,
     rehearse,
     report,
+    console,
     export,
     check,
     replay,

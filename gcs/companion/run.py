@@ -11,6 +11,7 @@ from gcs.companion.companion import Companion
 from gcs.flight_modes import custom_mode
 from gcs.transfers.command import command_long, send_command
 from gcs.transfers.errors import TransferError
+from gcs.transfers.message_interval import set_message_interval
 from gcs.vehicle_link import VehicleLink
 from missions.reference import Reference
 from missions.scenario import Scenario
@@ -165,6 +166,5 @@ def _in_auto(vehicle: VehicleLink) -> bool:
 
 async def _request_telemetry(vehicle: VehicleLink, announce: Announce) -> None:
     for message_id in TELEMETRY:
-        order = command_long(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, float(message_id), 1e6 / TELEMETRY_HZ)
-        if await send_command(vehicle, order) != mavlink.MAV_RESULT_ACCEPTED:
+        if not await set_message_interval(vehicle, message_id, 1.0 / TELEMETRY_HZ):
             announce(f"{vehicle}: sends message {message_id} at its own rate, not {TELEMETRY_HZ} times a second")

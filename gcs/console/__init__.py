@@ -1,0 +1,1 @@
+"""The live console: a swarm in three dimensions in a browser, as it flies or as it flew, and what steers it."""

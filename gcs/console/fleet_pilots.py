@@ -1,0 +1,35 @@
+"""Orders to vehicles over MAVLink, each seen in the vehicle's heartbeats before it counts as obeyed."""
+
+from collections.abc import Sequence
+
+from gcs.console.helm import Order
+from gcs.fleet import Fleet
+from gcs.operations import bring_home, change_mode
+from gcs.transfers.for_all import for_all
+from gcs.vehicle_link import VehicleLink
+from sitl.modes import Mode
+
+MODES = {Order.AUTO: Mode.AUTO, Order.LOITER: Mode.LOITER, Order.RTL: Mode.RTL}
+
+
+class FleetPilots:
+    """The vehicles of a fleet."""
+
+    def __init__(self, fleet: Fleet) -> None:
+        self._fleet = fleet
+
+    async def order(self, order: Order, sysids: Sequence[int]) -> list[str]:
+        """See `Pilots`: those that obeyed in one line, a line for each that did not."""
+
+        async def obey(vehicle: VehicleLink) -> str:
+            if order is Order.ABORT:
+                return await bring_home(vehicle)
+            await change_mode(vehicle, MODES[order])
+            return str(order.value)
+
+        results = await for_all([self._fleet.vehicles[i] for i in sysids if i in self._fleet.vehicles], obey)
+        lines = []
+        for what in dict.fromkeys(result for result in results.values() if isinstance(result, str)):
+            obeyed = [str(sysid) for sysid, result in results.items() if result == what]
+            lines.append(f"{'vehicle' if len(obeyed) == 1 else 'vehicles'} {', '.join(obeyed)}: {what}")
+        return lines + [str(result) for result in results.values() if not isinstance(result, str)]

@@ -1,0 +1,58 @@
+"""The web server of a console: viser's, behind a door."""
+
+import contextlib
+import socket
+from collections.abc import Iterator
+from typing import Any
+
+import viser
+import websockets.asyncio.server
+
+from gcs.console.door import Door
+from missions.errors import InputError
+
+
+def open_server(host: str, port: int, token: str | None) -> viser.ViserServer:
+    """Serve a page.
+
+    Args:
+        host: address to listen on.
+        port: where that is free, else the next one that is; 0 for any.
+        token: that browsers must have; None for none.
+
+    Raises:
+        InputError: nobody can listen there.
+    """
+    try:
+        socket.create_server((host, 0)).close()  # viser would try for ever
+    except OSError as error:
+        raise InputError(f"--host {host}: {error.strerror or error}; name an address of this machine") from None
+    with _guarded(Door(token)) as served:
+        server = viser.ViserServer(host=host, port=port, verbose=False)
+    if not served:
+        server.stop()
+        raise InputError(f"viser {viser.__version__} cannot be guarded; install viser 1.1")
+    return server
+
+
+@contextlib.contextmanager
+def _guarded(door: Door) -> Iterator[list[bool]]:
+    """Within this context viser's server gets a door: it asks nobody who comes in, and has no place for one that does.
+
+    Yields a list that is not empty once that has been done.
+    """
+    serve = websockets.asyncio.server.serve
+    served: list[bool] = []
+
+    def serve_behind_door(*args: Any, process_request: Any, **options: Any) -> Any:
+        def judged(connection: Any, request: Any) -> Any:
+            return door.judge(connection, request) or process_request(connection, request)
+
+        served.append(True)
+        return serve(*args, process_request=judged, **options)
+
+    websockets.asyncio.server.serve = serve_behind_door  # type: ignore[assignment,misc]
+    try:
+        yield served
+    finally:
+        websockets.asyncio.server.serve = serve  # type: ignore[misc]
