@@ -106,6 +106,7 @@ def test_ages_rise_by_a_tick_a_tick_to_what_was_added_and_fall_at_once() -> None
 def test_ten_seconds_drop_the_edges_which_fade_in_again_afterwards(real_time: bool) -> None:
     one = Flown(2, LINE, real_time=real_time, clocked=True)
     one.corrections(100)
+    assert [(state.used, state.trust) for state in one.formation.link_states(99)] == [(True, 1.0)] * 2
     one.formation.disturb(Disturbance(250, 0.0, one.tick))
     made = one.corrections(600)
     states = one.formation.link_states(one.tick - 1)
