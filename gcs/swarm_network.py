@@ -10,7 +10,9 @@ from gcs.swarm_query import Answers, ask_swarm
 from sitl.formation.link_state import LinkState as LinkState
 from sitl.zenoh_session import network_key
 
-TIMEOUT_S = 1.0
+LOOK_TIMEOUT_S = 1.0
+DISTURB_TIMEOUT_S = 5.0
+"""Longer: a disturbance that only some have heard of is worse than one that takes a moment."""
 
 
 class SwarmNetwork:
@@ -29,7 +31,7 @@ class SwarmNetwork:
     def links(self, sysids: Iterable[int]) -> tuple[LinkState, ...]:
         """How the links to these vehicles stand, in order of receiver and sender; without those to vehicles that have
         not answered within a second."""
-        answers = self._tell({}, sysids).of
+        answers = self._tell({}, sysids, LOOK_TIMEOUT_S).of
         return tuple(LinkState(**link) for sysid in sorted(answers) for link in answers[sysid]["links"])
 
     def disturb(self, delay_s: float, loss: float, sysids: Iterable[int], from_tick: int | None = None) -> int:
@@ -51,7 +53,7 @@ class SwarmNetwork:
             InputError: some of them cannot be reached, did not answer or refused; the others may be disturbed.
         """
         sysids = set(sysids)
-        clock = SwarmClock(self._session, self._swarm, sysids, TIMEOUT_S)
+        clock = SwarmClock(self._session, self._swarm, sysids, LOOK_TIMEOUT_S)
         wanted = {"delay_s": delay_s, "loss": loss, "from_tick": from_tick}
         if from_tick is not None or any(answer["real_time"] for answer in self._ask({}, sysids)):
             return self._disturb(wanted, sysids)
@@ -66,9 +68,9 @@ class SwarmNetwork:
 
     def _ask(self, request: dict[str, Any], sysids: Iterable[int]) -> Iterable[dict[str, Any]]:
         """The answers of all; raises InputError when some refused or did not answer."""
-        answers = self._tell(request, sysids)
+        answers = self._tell(request, sysids, DISTURB_TIMEOUT_S)
         answers.require_all()
         return answers.of.values()
 
-    def _tell(self, request: dict[str, Any], sysids: Iterable[int]) -> Answers:
-        return ask_swarm(self._session, self._key, request, sysids, TIMEOUT_S)
+    def _tell(self, request: dict[str, Any], sysids: Iterable[int], timeout_s: float) -> Answers:
+        return ask_swarm(self._session, self._key, request, sysids, timeout_s)

@@ -59,7 +59,7 @@ def vehicle_name(sysid: int) -> str:
 
 def access_control(swarm: str) -> dict[str, object]:
     """The router's rules: who is a vehicle of the swarm hears all of it and speaks for itself alone; the station hears
-    all and asks the clocks and the network; everybody else neither hears nor is heard."""
+    all and asks clocks and links; everybody else neither hears nor is heard."""
     everything, asked = f"skein/{swarm}/**", (clock_key(swarm), network_key(swarm))
     rules = [
         _rule("hear", _READ, "egress", everything),
