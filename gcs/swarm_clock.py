@@ -1,12 +1,13 @@
 """Holding, releasing, pacing and stopping a swarm's clocks over Zenoh (the queryable `skein/<swarm>/clock`)."""
 
-import json
+import contextlib
 import queue
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 import zenoh
 
+from gcs.swarm_query import Answers, ask_swarm
 from missions.errors import InputError
 from sitl.zenoh_session import alive_key, clock_key, sysid_of
 
@@ -67,6 +68,18 @@ class SwarmClock:
         """Let the clocks of these vehicles stand still. Raises as `release`."""
         self._ask({"do": "hold"}, sysids)
 
+    @contextlib.contextmanager
+    def standing(self, sysids: Iterable[int]) -> Iterator[None]:
+        """Within this context the clocks of these vehicles stand still; afterwards they go on, unless all stood still
+        before. Raises as `release`."""
+        told = self._tell({"do": "hold"}, sysids)
+        try:
+            told.require_all()
+            yield
+        finally:
+            if not all(answer["was_held"] for answer in told.of.values()):
+                self.release(sysids)
+
     def pace(self, speed: float, sysids: Iterable[int]) -> None:
         """Set the speed factor; 0 for as fast as it goes. Raises as `release`."""
         self._ask({"speed": speed}, sysids)
@@ -76,20 +89,7 @@ class SwarmClock:
         self._ask({"do": "stop"}, sysids)
 
     def _ask(self, request: dict[str, object], sysids: Iterable[int]) -> None:
-        waiting = set(sysids)
-        replies = self._session.get(
-            self._key,
-            payload=json.dumps(request),
-            target=zenoh.QueryTarget.ALL,
-            consolidation=zenoh.ConsolidationMode.NONE,
-            timeout=TIMEOUT_S,
-        )
-        for reply in replies:
-            if reply.ok is not None:
-                waiting.discard(json.loads(reply.ok.payload.to_bytes())["sysid"])
-            elif reply.err is not None:
-                raise InputError(reply.err.payload.to_bytes().decode("utf-8", "replace"))
-            if not waiting:
-                return
-        if waiting:
-            raise InputError(f"the clocks of vehicles {sorted(waiting)} did not answer within {TIMEOUT_S:g} s")
+        self._tell(request, sysids).require_all()
+
+    def _tell(self, request: dict[str, object], sysids: Iterable[int]) -> Answers:
+        return ask_swarm(self._session, self._key, request, sysids, TIMEOUT_S)

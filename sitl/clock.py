@@ -85,11 +85,13 @@ class Clock:
         start_tick, start = self._anchor
         return start_tick + (time.monotonic() - start) * self.speed / TICK_S
 
-    def hold(self) -> None:
-        """Stand still before the next tick. Raises ValueError in real time."""
+    def hold(self) -> bool:
+        """Stand still before the next tick; returns whether it did already. Raises ValueError in real time."""
         if self._real_time:
             raise ValueError("in real time the clock is the wall's, which nobody holds")
-        self._set(held=True)
+        with self._changed:
+            was_held, self.held = self.held, True
+        return was_held
 
     def release(self, at_s: float | None = None) -> None:
         """Go on.
@@ -127,7 +129,8 @@ def serve_clock(session: zenoh.Session, swarm: str, sysids: Callable[[], Iterabl
     """Answer queries on the swarm's clock key with the state of each vehicle, or an error that says what was wrong.
 
     A query's payload is JSON: {"do": "hold" | "release" | "stop" | "state"}, and {"speed": number}, where 0 means as
-    fast as it goes; with "release", {"at": UNIX time} names the moment at which the next tick begins.
+    fast as it goes; with "release", {"at": UNIX time} names the moment at which the next tick begins. The answer to
+    "hold" says in `was_held` whether the clock stood still already.
 
     Args:
         session: open.
@@ -139,19 +142,20 @@ def serve_clock(session: zenoh.Session, swarm: str, sysids: Callable[[], Iterabl
     def answer(query: zenoh.Query) -> None:
         try:
             request = json.loads(query.payload.to_bytes()) if query.payload is not None else {"do": "state"}
-            _obey(clock, request)
+            told = _obey(clock, request)
         except (ValueError, TypeError, AttributeError) as error:
             query.reply_err(f"vehicle {', '.join(map(str, sysids()))}: {error}")
             return
         speed = clock.speed if clock.paced else 0.0
         state = {"tick": clock.tick, "held": clock.held, "speed": speed, "stopped": clock.stopped}
         for sysid in sysids():
-            query.reply(clock_key(swarm), json.dumps({"sysid": sysid} | state))
+            query.reply(clock_key(swarm), json.dumps({"sysid": sysid} | state | told))
 
     session.declare_queryable(clock_key(swarm), zenoh.handlers.Callback(answer, indirect=False))
 
 
-def _obey(clock: Clock, request: Any) -> None:
+def _obey(clock: Clock, request: Any) -> dict[str, bool]:
+    """Do as asked; returns what there is to tell but the state."""
     if "speed" in request:
         speed = float(request["speed"])
         if not speed >= 0.0:
@@ -159,10 +163,13 @@ def _obey(clock: Clock, request: Any) -> None:
         clock.pace(speed or math.inf)
     action = request.get("do", "state")
     if action == "state":
-        return
+        return {}
     if action not in ("hold", "release", "stop"):
         raise ValueError(f"no action {action!r}; there are hold, release, stop and state")
+    if action == "hold":
+        return {"was_held": clock.hold()}
     if action == "release" and "at" in request:
         clock.release(float(request["at"]))
     else:
         getattr(clock, action)()
+    return {}

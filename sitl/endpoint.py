@@ -13,8 +13,10 @@ from sitl.avoidance.yielding import Yielding
 from sitl.config import VehicleConfig
 from sitl.events import StatusText
 from sitl.formation.correction import Correction
+from sitl.formation.disturbance import Disturbance
 from sitl.formation.failures import FOR_EVER
 from sitl.formation.link_report import LinkReport
+from sitl.formation.link_state import LinkState
 from sitl.services.face import MavlinkFace
 from sitl.services.links import StationLinks
 from sitl.services.signing import Signing
@@ -60,6 +62,7 @@ class Endpoint:
     Attributes:
         delays: the least delay in ticks of each of those it flies in formation with, by sysid.
         death_tick: when it is to fail.
+        real_time: nobody waits for anybody.
         links: its sockets; they want to be served.
         face: what they are served for.
     """
@@ -69,6 +72,7 @@ class Endpoint:
         self._network = network = config.vehicle.network
         self.delays = self._delays_of(network.neighbours(self.sysid))
         self.death_tick = network.deaths.get(self.sysid, FOR_EVER)
+        self.real_time = config.vehicle.real_time
         self._truth = TruthWriter(config.truth, shifts=config.vehicle.swarm_clock)
         store = Store(config.memory)
         self._vehicle = Vehicle(config.vehicle, self._truth, store)
@@ -128,6 +132,16 @@ class Endpoint:
             self._vehicle.links = links
             for line in wrong:
                 self._vehicle.report(StatusText(SEVERITY_WARNING, line))
+
+    def disturb(self, delay_ticks: int, loss: float, from_tick: int | None) -> int:
+        """Add delay and loss to its links; see `Vehicle.disturb`."""
+        with self._vehicle.lock:
+            return self._vehicle.disturb(delay_ticks, loss, from_tick)
+
+    def network_state(self) -> tuple[int, Disturbance, tuple[LinkState, ...]]:
+        """The tick to come, the disturbance in force and how its links stand, of one moment."""
+        with self._vehicle.lock:
+            return self._vehicle.tick, self._vehicle.disturbance, self._vehicle.link_states()
 
     def count_lost(self, loss: Loss) -> None:
         """All have agreed on a loss."""

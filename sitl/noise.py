@@ -15,6 +15,7 @@ class Stream(IntEnum):
     GUSTS = 1
     CHANNEL = 2
     INTENTS = 3
+    DISTURBANCES = 4
 
 
 def generator(seed: int, sysid: int, stream: Stream) -> np.random.Generator:

@@ -20,6 +20,7 @@ from sitl.formation.exchange import Exchange
 from sitl.formation.live_exchange import LiveExchange
 from sitl.loss_agreement import LossAgreement
 from sitl.loss_exchange import agree_over_zenoh
+from sitl.network_queryable import serve_network
 from sitl.reports import Ended, Failed, Ready
 from sitl.serving import serving
 from sitl.ticks import TICK_S
@@ -104,6 +105,7 @@ def _serve(config: ProcessConfig, endpoints: Sequence[Endpoint], reports: Connec
 
         crew = Crew(endpoints, reports, on_left)
         serve_clock(session, config.swarm, lambda: crew.flying, clock)
+        serve_network(session, config.swarm, lambda: crew.flying)
         for endpoint in endpoints:
             alive[endpoint.sysid] = session.liveliness().declare_token(alive_key(config.swarm, endpoint.sysid))
         if missing := exchange.wait_for_neighbours(NEIGHBOURS_TIMEOUT_S):

@@ -20,7 +20,9 @@ from sitl.failsafes import Failsafes
 from sitl.fence_watch import FenceAreas
 from sitl.flight import ground_velocity
 from sitl.formation.correction import Correction
+from sitl.formation.disturbance import Disturbance
 from sitl.formation.link_report import LinkReport, mean_delay_s
+from sitl.formation.link_state import LinkState
 from sitl.homing import check_rally
 from sitl.landed_state import landed_state
 from sitl.lookout import Lookout
@@ -216,6 +218,31 @@ class Vehicle:
     def report(self, text: StatusText) -> None:
         """Tell the stations something."""
         self._events.append(text)
+
+    def disturb(self, delay_ticks: int, loss: float, from_tick: int | None) -> int:
+        """Add delay and loss to all its links from a tick on, until the next time; None for the tick to come.
+
+        Returns:
+            The tick from which it counts.
+
+        Raises:
+            ValueError: that tick is over.
+        """
+        if from_tick is None:
+            from_tick = self.tick
+        if from_tick < self.tick:
+            raise ValueError(f"from_tick: {from_tick} is over, it is {self.tick}; choose a later one")
+        self._pilot.formation.disturb(Disturbance(delay_ticks, loss, from_tick))
+        return from_tick
+
+    @property
+    def disturbance(self) -> Disturbance:
+        """What is in force."""
+        return self._pilot.formation.disturbance
+
+    def link_states(self) -> tuple[LinkState, ...]:
+        """How its links stand, in order of the neighbours' sysids."""
+        return self._pilot.formation.link_states(self.tick - 1)
 
     def lose(self, lost: Set[int]) -> Set[int]:
         """Fly on without these vehicles; returns the neighbours that are left, new ones among them."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from missions.errors import InputError
-from sitl.zenoh_session import Peer
+from sitl.zenoh_session import Peer, clock_key, network_key
 from sitl.zenoh_tls import Tls
 
 STATION = "station"
@@ -59,13 +59,13 @@ def vehicle_name(sysid: int) -> str:
 
 def access_control(swarm: str) -> dict[str, object]:
     """The router's rules: who is a vehicle of the swarm hears all of it and speaks for itself alone; the station hears
-    all and asks the clocks; everybody else neither hears nor is heard."""
-    everything, clock = f"skein/{swarm}/**", f"skein/{swarm}/clock"
+    all and asks clocks and links; everybody else neither hears nor is heard."""
+    everything, asked = f"skein/{swarm}/**", (clock_key(swarm), network_key(swarm))
     rules = [
         _rule("hear", _READ, "egress", everything),
         _rule("ask", _ASK, "ingress", everything),
-        _rule("answer", ("declare_queryable", "reply"), "ingress", clock),
-        _rule("command", ("query",), "ingress", clock),
+        _rule("answer", ("declare_queryable", "reply"), "ingress", *asked),
+        _rule("command", ("query",), "ingress", *asked),
         *(_rule(f"say-{i}", ("put", "liveliness_token"), "ingress", f"skein/{swarm}/{i}/*") for i in SYSIDS),
     ]
     names = {i: vehicle_name(i) for i in SYSIDS}
@@ -83,5 +83,5 @@ def access_control(swarm: str) -> dict[str, object]:
     }
 
 
-def _rule(name: str, messages: tuple[str, ...], flow: str, keys: str) -> dict[str, object]:
-    return {"id": name, "messages": list(messages), "flows": [flow], "permission": "allow", "key_exprs": [keys]}
+def _rule(name: str, messages: tuple[str, ...], flow: str, *keys: str) -> dict[str, object]:
+    return {"id": name, "messages": list(messages), "flows": [flow], "permission": "allow", "key_exprs": list(keys)}

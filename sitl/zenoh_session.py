@@ -122,6 +122,11 @@ def clock_key(swarm: str) -> str:
     return f"skein/{swarm}/clock"
 
 
+def network_key(swarm: str) -> str:
+    """The queryable that tells how the links stand, and disturbs them."""
+    return f"skein/{swarm}/network"
+
+
 def sysid_of(alive: str, swarm: str) -> int:
     """The sysid in a liveliness token's key."""
     return int(alive.removeprefix(f"skein/{swarm}/").removesuffix("/alive"))

@@ -4,11 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 
 from sitl.formation.channel import DRAWS
 from sitl.formation.correction import Correction
+from sitl.formation.disturbance import DISTURBANCE_DRAWS, UNDISTURBED, DelayLine, Disturbance
 from sitl.formation.law import Gains
 from sitl.formation.link import NO_NEEDS, Link
+from sitl.formation.link_state import LinkState
 from sitl.formation.live_link import LiveLink
 from sitl.formation.network import Network
-from sitl.noise import uniforms
+from sitl.noise import Stream, uniforms
+from sitl.ticks import TICK_S
 
 
 class Formation:
@@ -24,6 +27,7 @@ class Formation:
     Attributes:
         edges: (tick, neighbour, whether its edge counts from then on), of each change so far.
         needs: the rates at which the neighbours would have the schedule slow down, and hurry; of the last corrections.
+        disturbance: in force on all links.
     """
 
     def __init__(
@@ -31,6 +35,8 @@ class Formation:
     ) -> None:
         self.edges: list[tuple[int, int, bool]] = []
         self.needs = NO_NEEDS
+        self.disturbance = UNDISTURBED
+        self._disturbances: list[Disturbance] = []
         self._sysid = sysid
         self._network = network
         self._seed = seed
@@ -56,6 +62,19 @@ class Formation:
         """These, and no others, are gone, whatever the schedule says."""
         self._lost = lost
         self._until_tick = 0
+
+    def disturb(self, disturbance: Disturbance) -> None:
+        """Disturb all links from a tick on that has had no corrections yet. Of two for one tick the later counts."""
+        self._disturbances = sorted([*self._disturbances, disturbance], key=lambda one: one.from_tick)
+        self._until_tick = 0
+
+    def link_states(self, tick: int) -> tuple[LinkState, ...]:
+        """How the links stand, in order of the neighbours' sysids; call it with the tick of the last corrections."""
+        states = []
+        for other, link in sorted(self._links.items()):
+            age = link.age_ticks(tick)
+            states.append(LinkState(other, self._sysid, None if age is None else age * TICK_S, link.used, link.trust))
+        return tuple(states)
 
     def neighbours_at(self, tick: int) -> Set[int]:
         """Whose edges count at a tick, as far as it is known who is gone."""
@@ -84,10 +103,12 @@ class Formation:
         return total
 
     def _follow(self, tick: int) -> None:
-        """The graph as of who is gone now; who was not foreseen as a neighbour is listened to from now on."""
+        """The graph as of who is gone now, and the disturbance of now; who was not foreseen as a neighbour is listened
+        to from now on."""
         if tick < self._until_tick:
             return
         self._until_tick = self._network.epoch_end(tick)
+        self._be_disturbed(tick)
         gone = self._network.gone_at(tick) | self._lost
         if gone == self._gone:
             return
@@ -96,6 +117,24 @@ class Formation:
         for other in self._weights.keys() - self._links.keys():
             self._links[other] = self._link(other, trust=0.0)
             self._used[other] = False
+            if self.disturbance is not UNDISTURBED:
+                self._disturb(other)
+
+    def _be_disturbed(self, tick: int) -> None:
+        """Let the disturbance of a tick come into force."""
+        while self._disturbances and self._disturbances[0].from_tick <= tick:
+            self.disturbance = self._disturbances.pop(0)
+            for other in self._links:
+                self._disturb(other)
+        if self._disturbances:
+            self._until_tick = min(self._until_tick, self._disturbances[0].from_tick)
+
+    def _disturb(self, sender: int) -> None:
+        link = self._links[sender]
+        if link.line is None:
+            draws = uniforms(self._seed, sender, self._sysid, DISTURBANCE_DRAWS, Stream.DISTURBANCES)
+            link.line = DelayLine(draws)
+        link.line.disturbance = self.disturbance
 
     def _link(self, sender: int, trust: float) -> Link:
         network, receiver = self._network, self._sysid

@@ -8,6 +8,7 @@ from typing import Any
 
 from sitl.formation.channel import LOST, Channel, carried
 from sitl.formation.correction import Correction
+from sitl.formation.disturbance import DelayLine
 from sitl.formation.failures import Interval, within
 from sitl.formation.law import Gains, correction
 from sitl.formation.swarm_clock import neighbours_need
@@ -59,6 +60,7 @@ class Link:
         trust: share of its weight that the edge has.
         used: whether the edge counted at this tick.
         needs: the rates at which the neighbour would have the schedule slow down, and hurry.
+        line: what a disturbance does after the channel; None while there has been none.
     """
 
     def __init__(
@@ -75,11 +77,13 @@ class Link:
         self.trust = trust
         self.used = False
         self.needs = NO_NEEDS
+        self.line: DelayLine | None = None
         self._clocked = clocked
         self._draws = draws
         self._silences = list(silences)
         self._oldest_ticks = channel.delay_ticks + channel.jitter_ticks + stale_ticks
         self._in_burst = False
+        self._arrived = NEVER
         self._newest = NEVER
         self._sample: Correction | None = None
         self._arrivals = [NEVER] * (channel.jitter_ticks + 1)
@@ -88,24 +92,35 @@ class Link:
 
     def hear(self, tick: int, sample: Correction | None) -> None:
         """Take in what the neighbour said `delay_ticks` ago; None when it said nothing. Once a tick."""
+        if not self._only_delays:
+            sample = self._through_channel(tick, sample)
+        if self.line is not None:
+            sample = self.line.carry(tick, sample)
+        if sample is not None and sample.tick > self._newest:
+            self._newest, self._sample = sample.tick, sample
+
+    def age_ticks(self, tick: int) -> int | None:
+        """How old the newest sample that has come through is at a tick; None before the first."""
+        return None if self._sample is None else tick - self._newest
+
+    def _through_channel(self, tick: int, sample: Correction | None) -> Correction | None:
+        """The newest that the channel lets through at a tick, if it is newer than all before."""
         delay = self.channel.delay_ticks
         stamp = tick - delay
-        if self._only_delays:  # as in most flights, at every tick
-            if sample is not None:
-                self._newest, self._sample = stamp, sample
-            return
         if stamp >= 0 and self._draws is not None:
             jitter, loss, change = next(self._draws)
             self._in_burst, delay = carried(self._in_burst, (jitter, loss, change), self.channel)
         if sample is not None and delay != LOST and not within(stamp, self._silences):
             self._samples[stamp] = sample
             arrive(stamp, stamp + delay, self._arrivals)
-        before = self._newest
-        self._newest = newest_heard(tick, before, self._arrivals)
-        if self._newest > before:
-            self._sample = self._samples[self._newest]
-            for overtaken in range(before, self._newest + 1):
-                self._samples.pop(overtaken, None)
+        before = self._arrived
+        self._arrived = newest_heard(tick, before, self._arrivals)
+        if self._arrived == before:
+            return None
+        newest = self._samples[self._arrived]
+        for overtaken in range(before, self._arrived + 1):
+            self._samples.pop(overtaken, None)
+        return newest
 
     def part(self, tick: int, own: Sequence[Correction], weight: float, gains: Gains) -> float:
         """The neighbour's part of the law's corrections. Call it once a tick, after `hear`.

@@ -14,11 +14,6 @@ class LiveLink(Link):
     older one is carried on by its velocity to so many ticks ago; when it is too old for that the edge is dropped.
     """
 
-    def hear(self, tick: int, sample: Correction | None) -> None:
-        """Take in the newest that has begun to count; None when nothing has. Once a tick."""
-        if sample is not None and sample.tick > self._newest:
-            self._newest, self._sample = sample.tick, sample
-
     def _pair(self, tick: int, own: Sequence[Correction], sample: Correction) -> tuple[Correction, Correction]:
         moment = max(sample.tick, tick - self.channel.delay_ticks - self.channel.jitter_ticks)
         later_s = (moment - sample.tick) * TICK_S

@@ -136,6 +136,28 @@ def test_the_station_releases_paces_holds_and_stops(station: tuple[zenoh.Session
     assert clock.stopped
 
 
+@pytest.mark.parametrize("held", [True, False])
+def test_clocks_that_stand_for_a_moment_are_then_as_they_were(station: tuple[zenoh.Session, Clock], held: bool) -> None:
+    session, clock = station
+    clock.held = held
+    with SwarmClock(session, "test", [4]).standing([4]):
+        assert clock.held
+    assert clock.held == held
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_whoever_does_not_answer_holds_nobody_up_and_starts_nobody(
+    station: tuple[zenoh.Session, Clock], monkeypatch: pytest.MonkeyPatch, held: bool
+) -> None:
+    monkeypatch.setattr("gcs.swarm_clock.TIMEOUT_S", 0.3)
+    session, clock = station
+    clock.held = held
+    swarm = SwarmClock(session, "test", [4])
+    with pytest.raises(InputError, match=r"\[5\] did not answer"), swarm.standing([4, 5]):
+        pass
+    assert clock.held == held
+
+
 def test_the_station_names_the_moment_of_the_start(station: tuple[zenoh.Session, Clock]) -> None:
     session, clock = station
     SwarmClock(session, "test", [4]).start([4], time.time() + 3600.0)
