@@ -184,7 +184,7 @@ class Web:
         from ipaddress import ip_address
 
         from gcs.cli import output
-        from gcs.console.server import open_server
+        from gcs.console.server import close_server, open_server
 
         local = self.host == "localhost" or ip_address(self.host).is_loopback
         token = None if local else secrets.token_urlsafe(24)
@@ -196,7 +196,7 @@ class Web:
                 webbrowser.open(address)
             yield server
         finally:
-            server.stop()
+            close_server(server)
 
 
 def until_interrupted() -> "asyncio.Event":

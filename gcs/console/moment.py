@@ -69,7 +69,7 @@ class Course:
         error_m: RMS formation error over the edges.
         separation_m: least distance between any two vehicles.
         delay_s: of the corrections that the vehicles go by, on the average.
-        now: how many of them lie in the past.
+        now: how many of them lie in the past; the others are of a recording.
     """
 
     t_s: FloatArray = field(default_factory=lambda: np.empty(0))

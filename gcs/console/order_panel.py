@@ -1,7 +1,6 @@
 """Choosing a vehicle, following it, and giving orders: to it, or to all."""
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 
 import viser
 
@@ -12,9 +11,9 @@ from gcs.console.inputs import set_value
 
 ALL = "all vehicles"
 HINTS = {
-    Order.AUTO: "Fly the mission",
-    Order.LOITER: "Circle here",
-    Order.RTL: "Fly home",
+    Order.AUTO: "AUTO: fly the mission",
+    Order.LOITER: "LOITER: circle here",
+    Order.RTL: "RTL: fly home",
 }
 
 
@@ -50,9 +49,10 @@ class OrderPanel:
         self._follow = gui.add_checkbox("Follow", initial_value=False, hint="Fly along with it")
         self._follow.on_update(lambda _: self._chosen())
         if pilots is not None:
-            for order in HINTS:
-                button = gui.add_button(order.value, hint=HINTS[order])
-                button.on_click(partial(self._give, order))
+            orders = gui.add_button_group(
+                "Order", tuple(order.value for order in HINTS), hint="; ".join(HINTS.values())
+            )
+            orders.on_click(lambda event: self._give(Order(event.target.value)))
             abort = gui.add_button("Abort", color="red", hint="Bring everyone home, after a question")
             abort.on_click(lambda _: self._ask_to_abort())
 
@@ -73,7 +73,7 @@ class OrderPanel:
             self.following = following
             self._on_follow(following)
 
-    def _give(self, order: Order, event: object) -> None:
+    def _give(self, order: Order) -> None:
         assert self._pilots is not None
         sysids = list(self._sysids.values()) if self.selected is None else [self.selected]
         self._do(order.value, self._pilots.order(order, sysids))

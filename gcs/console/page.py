@@ -87,7 +87,7 @@ class Page:
             gui.add_html(_legend(self._place))
             self._orders = OrderPanel(gui, helm.pilots, self.do, self._choose, self._set_follow)
         with tabs.add_tab("Plots", viser.Icon.CHART_LINE):
-            self._plots = Plots(gui)
+            self._plots = Plots(gui, self._source.duration_s if isinstance(self._source, Recording) else None)
         self._network = None
         if helm.network is not None:
             with tabs.add_tab("Network", viser.Icon.ACCESS_POINT):
@@ -99,7 +99,9 @@ class Page:
         self._events = gui.add_html("")
 
     def _add_end(self, end: Callable[[], None]) -> None:
-        button = self._server.gui.add_button("End the flight", icon=viser.Icon.FLAG, hint="After a question")
+        button = self._server.gui.add_button(
+            "End the flight", color="gray", icon=viser.Icon.FLAG, hint="After a question"
+        )
         button.on_click(
             lambda _: ask(
                 self._server.gui,

@@ -10,13 +10,14 @@ from gcs.console.moment import Course
 FloatArray = npt.NDArray[np.float64]
 
 HEIGHT_PX = 150
-AHEAD = "rgba(128,128,128,0.55)"
-"""What of a recorded flight is still to come."""
 INK = "#8a8a8a"
 """Readable on white and on black."""
 GRID = "rgba(128,128,128,0.2)"
-KINDS = (("error_m", "formation error (m)", "#0072b2"), ("separation_m", "least separation (m)", "#d55e00"),
-         ("delay_s", "delay of corrections (s)", "#009e73"))  # fmt: skip
+KINDS = (
+    ("error_m", "formation error (m)", "#0072b2"),
+    ("separation_m", "least separation (m)", "#d55e00"),
+    ("delay_s", "age of corrections (s)", "#009e73"),
+)
 
 
 class Plots:
@@ -24,24 +25,19 @@ class Plots:
 
     Args:
         gui: to add them to, in the container that is open.
+        duration_s: of a flight that is over; None while it goes on.
     """
 
-    def __init__(self, gui: viser.GuiApi) -> None:
-        self._shown = (-1, -1)
+    def __init__(self, gui: viser.GuiApi, duration_s: float | None) -> None:
+        self._shown = -1
+        x = uplot.Scale(time=False) if duration_s is None else uplot.Scale(time=False, range=(0.0, duration_s))
         self._charts = {
             key: gui.add_uplot(
                 data=_data(Course(), key),
-                series=(
-                    uplot.Series(label="t (s)"),
-                    uplot.Series(label=title, stroke=colour, width=2),
-                    uplot.Series(label="to come", stroke=AHEAD, width=1),
-                ),
+                series=(uplot.Series(label="t (s)"), uplot.Series(label=title, stroke=colour, width=2)),
                 title=title,
-                scales={"x": uplot.Scale(time=False), "y": uplot.Scale(auto=True)},
-                axes=(
-                    uplot.Axis(stroke=INK, grid={"stroke": GRID}, ticks={"stroke": GRID}, size=26),
-                    uplot.Axis(stroke=INK, grid={"stroke": GRID}, ticks={"stroke": GRID}, size=46),
-                ),
+                scales={"x": x, "y": uplot.Scale(auto=True)},
+                axes=(_axis(26), _axis(50)),
                 legend=uplot.Legend(show=False),
                 height=HEIGHT_PX,
             )
@@ -50,15 +46,19 @@ class Plots:
 
     def show(self, course: Course) -> None:
         """Renew them, if there is anything new."""
-        if (course.now, len(course.t_s)) == self._shown:
+        if course.now == self._shown:
             return
-        self._shown = (course.now, len(course.t_s))
+        self._shown = course.now
         for key, chart in self._charts.items():
             chart.data = _data(course, key)
 
 
-def _data(course: Course, key: str) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Times, what was, and what is to come, of as many points each."""
-    values: FloatArray = getattr(course, key)
-    past = np.arange(len(values)) < course.now
-    return course.t_s, np.where(past, values, np.nan), np.where(past, np.nan, values)
+def _axis(size_px: int) -> uplot.Axis:
+    return uplot.Axis(stroke=INK, grid={"stroke": GRID}, ticks={"stroke": GRID}, size=size_px)
+
+
+def _data(course: Course, key: str) -> tuple[FloatArray, FloatArray]:
+    """Times and values so far, where there are any; uPlot takes no NaN."""
+    values: FloatArray = getattr(course, key)[: course.now]
+    known = np.isfinite(values)
+    return course.t_s[: course.now][known], values[known]

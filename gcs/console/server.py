@@ -1,6 +1,7 @@
 """The web server of a console: viser's, behind a door."""
 
 import contextlib
+import io
 import socket
 from collections.abc import Iterator
 from typing import Any
@@ -27,12 +28,25 @@ def open_server(host: str, port: int, token: str | None) -> viser.ViserServer:
         socket.create_server((host, 0)).close()  # viser would try for ever
     except OSError as error:
         raise InputError(f"--host {host}: {error.strerror or error}; name an address of this machine") from None
-    with _guarded(Door(token)) as served:
+    with _guarded(Door(token)) as served, _quiet():
         server = viser.ViserServer(host=host, port=port, verbose=False)
     if not served:
-        server.stop()
+        close_server(server)
         raise InputError(f"viser {viser.__version__} cannot be guarded; install viser 1.1")
     return server
+
+
+def close_server(server: viser.ViserServer) -> None:
+    """Serve no more."""
+    with _quiet():
+        server.stop()
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """viser prints when it begins and ends; what commands print is theirs."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        yield
 
 
 @contextlib.contextmanager

@@ -161,13 +161,16 @@ class SwarmView:
                     self._labels.pop(sysid).remove()
                 continue
             where = self._places[i] + (0.0, 0.0, 0.6 * self.size)
-            text = f"{sysid} {names.get(sysid, '')}".strip()
+            # Short, since in close formation they are close, too.
+            text = f"{sysid} {names.get(sysid, '')}".strip() if sysid == self.selected else str(sysid)
             if label is None:
                 self._labels[sysid] = self._scene.add_label(
                     f"/swarm/label/{sysid}", text, position=tuple(where), anchor="bottom-center", font_screen_scale=0.8
                 )
             else:
                 label.position = where
+                if label.text != text:
+                    label.text = text
 
     def _link_points(self) -> npt.NDArray[np.float32]:
         points: npt.NDArray[np.float32] = self._places[np.array(self._pairs)].astype(np.float32)

@@ -50,8 +50,8 @@ def _light(scene: viser.SceneApi) -> None:
     """From the north-west, as on maps; viser's own bleaches what lies flat."""
     scene.configure_default_lights(enabled=False)
     scene.configure_environment_map(hdri=None)
-    scene.add_light_ambient("/light/ambient", intensity=1.6)
-    scene.add_light_directional("/light/sun", intensity=1.8, position=(-SIDE, SIDE, SIDE), cast_shadow=False)
+    scene.add_light_ambient("/light/ambient", intensity=2.4)
+    scene.add_light_directional("/light/sun", intensity=1.3, position=(-SIDE, SIDE, SIDE), cast_shadow=False)
 
 
 def _surroundings(scene: viser.SceneApi, chart: Chart, environment: Environment, low_m: float) -> None:
