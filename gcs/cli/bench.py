@@ -57,6 +57,9 @@ RehearsalOption = Annotated[
 ChainOption = Annotated[
     bool, typer.Option("--chain", help="Measure how far positions are moved from plan to telemetry, instead.")
 ]
+ConsoleOption = Annotated[
+    bool, typer.Option("--console", help="Measure what a console costs that shows 9 and 200 vehicles, instead.")
+]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Folder for bench.json and figures.")]
 UpdateOption = Annotated[bool, typer.Option("--update-best", help="Keep what is better than the best-known paths.")]
 
@@ -78,6 +81,7 @@ def bench(
     mavlink: MavlinkOption = False,
     rehearsal: RehearsalOption = False,
     chain: ChainOption = False,
+    console: ConsoleOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare searches, stations and speeds with their peers.
@@ -99,6 +103,11 @@ def bench(
             from gcs.cli.bench_rehearsal import bench_rehearsal
 
             bench_rehearsal(quick, json)
+            return
+        if console:
+            from gcs.cli.bench_console import bench_console
+
+            bench_console(quick, json)
             return
         if chain:
             from gcs.cli.bench_chain import bench_chain

@@ -72,7 +72,6 @@ def steering(
                 plan.references(scenario),
                 edges(scenario.formation.graph, sysids),
                 simulated=True,
-                step_s=USUAL_STREAM_S,
                 stack=stack,
             )
             page = Page(
@@ -86,7 +85,7 @@ def steering(
 
             background = [
                 asyncio.create_task(_poll_links(source, helm)),
-                asyncio.create_task(_stream(source, list(cockpit.fleet.vehicles.values()), lambda: helm.speed)),
+                asyncio.create_task(_stream(list(cockpit.fleet.vehicles.values()), lambda: helm.speed)),
             ]
             try:
                 await present(page, source, until, also)
@@ -126,7 +125,6 @@ async def watch_fleet(
             {} if scenario is None or plan is None else plan.references(scenario),
             edges(scenario.formation.graph, sysids) if scenario is not None and sysids else (),
             simulated=False,
-            step_s=STREAM_S,
             stack=stack,
         )
         page = Page(server, place, source, Helm(FleetPilots(fleet)))
@@ -171,7 +169,7 @@ async def _poll_links(source: Live, helm: SwarmHelm) -> None:
         await asyncio.sleep(POLL_S)
 
 
-async def _stream(source: Live, vehicles: Sequence[VehicleLink], speed: Callable[[], float]) -> None:
+async def _stream(vehicles: Sequence[VehicleLink], speed: Callable[[], float]) -> None:
     """Ask vehicles for as many positions a second as the eye needs, whenever the speed of their clock has changed."""
     asked_s = USUAL_STREAM_S
     while True:
@@ -179,7 +177,6 @@ async def _stream(source: Live, vehicles: Sequence[VehicleLink], speed: Callable
         if wanted_s != asked_s:
             asked_s = wanted_s
             await _ask_for_streams(vehicles, wanted_s)
-            source.step_s = wanted_s
         await asyncio.sleep(POLL_S)
 
 

@@ -38,11 +38,9 @@ class Live:
         references: what they are to fly, by sysid; empty when nobody knows.
         edges: of the formation.
         simulated: they go by one clock.
-        step_s: simulated time between two of a vehicle's samples.
         stack: that ends the listening.
 
     Attributes:
-        step_s: may be changed.
         ages_s: of the corrections over each link (sender, receiver), where the swarm tells; kept up to date by others.
         lost: why vehicles were lost, by sysid; kept up to date by others.
         doing: what is shown, for people.
@@ -57,13 +55,11 @@ class Live:
         edges: Sequence[Edge],
         *,
         simulated: bool,
-        step_s: float,
         stack: contextlib.ExitStack,
     ) -> None:
         self.ages_s: dict[tuple[int, int], float | None] | None = None
         self.lost: dict[int, str] = {}
         self.doing = "live"
-        self.step_s = step_s
         self._fleet = fleet
         self._stack = stack
         self._values: dict[tuple[int, str], float] = {}
@@ -88,9 +84,9 @@ class Live:
         """The moment to show."""
         self._telemetry.follow(self._fleet.vehicles, self._listen)
         tracks = {i: track for i, track in sorted(self._telemetry.tracks.items()) if math.isfinite(track.newest_s)}
-        heard = [track.newest_s for i, track in tracks.items() if self._is_heard(i)]
-        newest_s = min(heard, default=self._time.t_s)
-        t_s = self._time.advance(passed_s, newest_s, self.step_s)
+        heard = [track for i, track in tracks.items() if self._is_heard(i)]
+        newest_s = min((track.newest_s for track in heard), default=self._time.t_s)
+        t_s = self._time.advance(passed_s, newest_s, max((track.step_s for track in heard), default=0.0))
         states = [track.at(t_s) for track in tracks.values()]
         self._moment = Moment(
             t_s,

@@ -1,6 +1,7 @@
 """Showing a page for as long as it is wanted: what moves many times a second, the rest some times."""
 
 import asyncio
+import contextlib
 import time
 from collections.abc import Callable
 
@@ -13,6 +14,8 @@ MANY_FRAME_S = 1.0 / 10.0
 MANY = 50
 FIGURES_S = 0.25
 MANY_FIGURES_S = 0.5
+LEAST_REST_S = 0.001
+"""For all else that the process does."""
 
 
 async def present(page: Page, source: Source, until: asyncio.Event, also: Callable[[], None] | None = None) -> None:
@@ -23,20 +26,18 @@ async def present(page: Page, source: Source, until: asyncio.Event, also: Callab
         until: the end.
         also: called whenever the figures are renewed, before.
     """
-    shown_s = figures_s = time.monotonic()
+    shown_s = figures_s = next_s = time.monotonic()
     while not until.is_set():
         many = len(source.names) > MANY
         frame_s = MANY_FRAME_S if many else FRAME_S
         now_s = time.monotonic()
         page.show(now_s - shown_s)
         shown_s = now_s
+        next_s = max(next_s + frame_s, now_s)  # evenly; who falls behind does not hurry
         if now_s >= figures_s:
             figures_s = now_s + (MANY_FIGURES_S if many else FIGURES_S)
             if also is not None:
                 also()
             page.show_figures()
-        rest_s = now_s + frame_s - time.monotonic()
-        try:
-            await asyncio.wait_for(until.wait(), max(0.001, rest_s))
-        except TimeoutError:
-            continue
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(until.wait(), max(LEAST_REST_S, next_s - time.monotonic()))

@@ -38,6 +38,11 @@ class Track:
         """Time of the newest sample; -inf without any."""
         return self._newest[-1].t_s if self._newest else -math.inf
 
+    @property
+    def step_s(self) -> float:
+        """Between its newest samples; 0 without two of them."""
+        return self._newest[-1].t_s - self._newest[-2].t_s if len(self._newest) > 1 else 0.0
+
     def add(self, sample: Sample) -> None:
         """Take a sample; one that is no newer than the last is left out."""
         if sample.t_s <= self.newest_s:
