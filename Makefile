@@ -4,11 +4,12 @@ CANDIDATES := $(PYTHON) python3.11 python3.12 python3.13 python3.14 python3 pyth
 USABLE := import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))
 BIN := .venv/bin
 
-.PHONY: demo test lint types floors unit soak pictures clean
+.PHONY: demo console test lint types floors unit soak pictures clean
 .DEFAULT_GOAL := help
 
 help:
 	@echo "make demo       set up, then plan, fly and report nine vehicles (scenario radars)"
+	@echo "make console    set up, then fly nine vehicles and show them in the browser (ARGS='vee --speed 5')"
 	@echo "make test       set up, then ruff, mypy, import-linter and pytest"
 	@echo "make soak       hostile traffic, lossy links, killed ends, failures in flight and gusts by the thousand; figures to runs/soak/soak.json"
 	@echo "make pictures   fly the shipped scenarios and renew the README's pictures"
@@ -16,6 +17,9 @@ help:
 
 demo: .venv/.installed
 	$(BIN)/skein demo
+
+console: .venv/.console
+	$(BIN)/skein console --open $(ARGS)
 
 test: lint types floors unit
 
@@ -35,7 +39,7 @@ unit: .venv/.tested
 soak: .venv/.installed
 	$(BIN)/python -m gcs.bench.soak
 
-pictures: .venv/.installed
+pictures: .venv/.tested
 	$(BIN)/python -m gcs.pictures docs/pictures
 
 clean:
@@ -52,6 +56,10 @@ clean:
 
 .venv/.installed: .venv/.created pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable .
+	@touch $@
+
+.venv/.console: .venv/.installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[console]'
 	@touch $@
 
 .venv/.tested: .venv/.installed

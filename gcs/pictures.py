@@ -10,12 +10,14 @@ from typing import get_args
 
 from PIL import Image
 
+from gcs.console_picture import find_browser, take_picture
 from gcs.export import ExportOptions, export
 from gcs.figures import draw_arms, draw_formation, draw_mission_files, draw_plan
 from gcs.flight import FlightOptions, fly
 from gcs.metrics import Series
 from gcs.rehearsal import RehearsalOptions, compile_rehearsal, rehearse_plan
 from gcs.report import report_on, write_report
+from gcs.report_page import read_flown_run
 from gcs.run_folder import RunFolder, make_run_folder
 from gcs.watch import VehicleStatus
 from missions.altitude_frame import AltitudeFrame
@@ -39,10 +41,22 @@ def main(folder: Path) -> None:
         for name in SCENES:
             run, _ = _flown(name, "full", Path(runs) / name)
             shutil.copy(run.figures / "scene.png", folder / f"{name}.png")
+        _console(Path(runs) / SCENES[-1], folder / "console.png")
         errors = {arm: _flown(FORMATION, arm, Path(runs) / arm)[1].error for arm in get_args(Arm)}
         draw_arms(load_scenario(FORMATION), errors, folder / "arms.png")
         for picture in _guide(folder.parent / GUIDE, Path(runs)):
             _shrink(picture, folder / f"guide-{picture.name}")
+
+
+def _console(run: Path, picture: Path) -> None:
+    """A console that shows a run half-way."""
+    browser = find_browser()
+    if browser is None:
+        print(f"{picture}: not renewed, since there is no Chromium here", file=sys.stderr)
+        return
+    flown = read_flown_run(run)
+    asyncio.run(take_picture(flown, 0.4 * flown.series.tracks.t_s[-1], browser, picture))
+    _shrink(picture, picture)
 
 
 def _guide(file: Path, folder: Path) -> list[Path]:

@@ -10,7 +10,7 @@ FloatArray = npt.NDArray[np.float64]
 
 OVERVIEW = np.array([-0.3, -0.75, 0.55]) * SIDE
 """From the south-west, and above."""
-NEAR = np.array([-6.0, -10.0, 6.0])
+NEAR = np.array([-4.0, -7.0, 4.0])
 """From an aircraft that is followed, in lengths of it."""
 
 

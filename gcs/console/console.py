@@ -42,9 +42,13 @@ POLL_S = 0.25
 """How often a swarm is asked for its links."""
 
 
-async def show_recording(server: viser.ViserServer, run: FlownRun, until: asyncio.Event) -> None:
-    """Show a flight that is over until the event is set."""
+async def show_recording(
+    server: viser.ViserServer, run: FlownRun, until: asyncio.Event, at_s: float | None = None
+) -> None:
+    """Show a flight that is over until the event is set; from its beginning, or as it was at some time."""
     source = Recording(run)
+    if at_s is not None:
+        source.t_s, source.playing = at_s, False
     page = Page(server, place_of(run.scenario, run.plan), source, Helm())
     await present(page, source, until)
 

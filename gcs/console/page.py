@@ -84,7 +84,8 @@ class Page:
         tabs = gui.add_tab_group()
         with tabs.add_tab("Vehicles", viser.Icon.PLANE):
             self._table = gui.add_html("")
-            gui.add_html(_legend(self._place))
+            if self._place.ground is not None:  # else nobody knows of a formation
+                gui.add_html(_legend(self._place))
             self._orders = OrderPanel(gui, helm.pilots, self.do, self._choose, self._set_follow)
         with tabs.add_tab("Plots", viser.Icon.CHART_LINE):
             self._plots = Plots(gui, self._source.duration_s if isinstance(self._source, Recording) else None)

@@ -89,7 +89,7 @@ class SwarmView:
             each = np.array([rgb(self._colour_of(sysid)) for sysid in self._sysids], dtype=np.uint8)
             colours = np.repeat(each, 2 * (k - 1), axis=0).reshape(-1, 2, 3)
             self._trails = self._scene.add_line_segments(
-                "/swarm/trails", segments, colours, thickness=2.5, thickness_units="screen"
+                "/swarm/trails", segments, colours, thickness=4.0, thickness_units="screen"
             )
         else:
             self._trails.points = segments

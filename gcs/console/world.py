@@ -10,6 +10,7 @@ import trimesh
 import viser
 from matplotlib.colors import LinearSegmentedColormap, to_rgb
 from matplotlib.ticker import MaxNLocator
+from PIL import Image
 
 from gcs.console.chart import SIDE, Chart
 from gcs.console.place import Place
@@ -35,7 +36,10 @@ def draw_world(scene: viser.SceneApi, place: Place) -> None:
     chart = place.chart
     _light(scene)
     if place.ground is None or place.environment is None:
-        scene.add_grid("/world/grid", infinite_grid=True, cell_size=0.2, section_size=1.0)
+        scene.add_grid(
+            "/world/grid", infinite_grid=True, cell_size=0.2, section_size=1.0, cell_color=(232, 232, 232),
+            section_color=(205, 205, 205),
+        )  # fmt: skip
     else:
         _ground(scene, chart, place.ground)
         _surroundings(scene, chart, place.environment, float(place.ground.z_m.min()))
@@ -50,8 +54,8 @@ def _light(scene: viser.SceneApi) -> None:
     """From the north-west, as on maps; viser's own bleaches what lies flat."""
     scene.configure_default_lights(enabled=False)
     scene.configure_environment_map(hdri=None)
-    scene.add_light_ambient("/light/ambient", intensity=2.4)
-    scene.add_light_directional("/light/sun", intensity=1.3, position=(-SIDE, SIDE, SIDE), cast_shadow=False)
+    scene.add_light_ambient("/light/ambient", intensity=2.0)
+    scene.add_light_directional("/light/sun", intensity=1.5, position=(-SIDE, SIDE, SIDE), cast_shadow=False)
 
 
 def _surroundings(scene: viser.SceneApi, chart: Chart, environment: Environment, low_m: float) -> None:
@@ -120,11 +124,20 @@ def _ground(scene: viser.SceneApi, chart: Chart, ground: Ground) -> None:
         return
     x, y = np.meshgrid(ground.x_m, ground.y_m)
     vertices, faces = _surface(np.stack([x, y, ground.z_m], axis=-1))
-    shares = (ground.z_m - ground.z_m.min()) / np.ptp(ground.z_m)
-    colours = LinearSegmentedColormap.from_list("ground", style.GROUND)(shares.ravel())
-    mesh = trimesh.Trimesh(chart.units(vertices), faces, vertex_colors=colours, process=False)
+    mesh = trimesh.Trimesh(chart.units(vertices), faces, visual=_paint(ground), process=False)
     scene.add_mesh_trimesh("/world/ground", mesh, cast_shadow=False, receive_shadow=False)
     _contours(scene, chart, ground)
+
+
+def _paint(ground: Ground) -> trimesh.visual.TextureVisuals:
+    """From the plain to the peaks, as a picture on the ground: colours of vertices would come out as metal."""
+    shares = (ground.z_m - ground.z_m.min()) / np.ptp(ground.z_m)
+    colours = LinearSegmentedColormap.from_list("ground", style.GROUND)(shares, bytes=True)
+    picture = Image.fromarray(colours[::-1, :, :3])  # its first row is the northernmost
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=picture, metallicFactor=0.0, roughnessFactor=1.0)
+    m, n = ground.z_m.shape
+    u, v = np.meshgrid(np.linspace(0.0, 1.0, n), np.linspace(0.0, 1.0, m))
+    return trimesh.visual.TextureVisuals(uv=np.stack([u.ravel(), v.ravel()], axis=1), material=material)
 
 
 def _contours(scene: viser.SceneApi, chart: Chart, ground: Ground) -> None:
