@@ -181,13 +181,12 @@ class Web:
         """Within this context there is a server; its address is printed. Raises InputError when it cannot listen."""
         import secrets
         import webbrowser
-        from ipaddress import ip_address
 
         from gcs.cli import output
+        from gcs.console.door import is_loopback
         from gcs.console.server import close_server, open_server
 
-        local = self.host == "localhost" or ip_address(self.host).is_loopback
-        token = None if local else secrets.token_urlsafe(24)
+        token = None if is_loopback(self.host) else secrets.token_urlsafe(24)
         server = open_server(self.host, self.port, token)
         try:
             address = f"http://{self.host}:{server.get_port()}/" + (f"?token={token}" if token else "")

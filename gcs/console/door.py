@@ -6,13 +6,14 @@ flight. So the Origin that a browser names must be the console's own, and the Ho
 
 import hmac
 import http
-from urllib.parse import parse_qs, urlsplit
+import re
+from ipaddress import ip_address
+from urllib.parse import parse_qs
 
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-LOOPBACK_NAMES = ("127.0.0.1", "localhost", "[::1]")
 REFUSED = "403: open the address that `skein console` has printed\n"
 
 
@@ -30,20 +31,28 @@ class Door:
         """What to answer instead of what was asked for; None for those who may come in."""
         host = request.headers.get("Host", "")
         origin = request.headers.get("Origin")
-        if origin is not None and urlsplit(origin).netloc != host:
+        if origin is not None and origin.partition("://")[2] != host:
             return _answer(http.HTTPStatus.FORBIDDEN, REFUSED)
         if self._token is None:
-            local = host.rpartition(":")[0] in LOOPBACK_NAMES
+            local = is_loopback(re.sub(r":\d+$", "", host).strip("[]"))
             return None if local else _answer(http.HTTPStatus.FORBIDDEN, REFUSED)
-        address = urlsplit(request.path)
+        query = request.path.partition("?")[2]
         name = f"skein_{host.rpartition(':')[2]}"
-        if self._is_token(parse_qs(address.query).get("token", [""])[0]):
+        if self._is_token(parse_qs(query).get("token", [""])[0]):
             cookie = f"{name}={self._token}; Path=/; HttpOnly; SameSite=Lax"
-            return _answer(http.HTTPStatus.SEE_OTHER, "", {"Location": address.path, "Set-Cookie": cookie})
+            return _answer(http.HTTPStatus.SEE_OTHER, "", {"Location": "/", "Set-Cookie": cookie})
         return None if self._is_token(_cookie(request, name)) else _answer(http.HTTPStatus.FORBIDDEN, REFUSED)
 
     def _is_token(self, text: str) -> bool:
         return self._token is not None and hmac.compare_digest(text.encode(), self._token.encode())
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a host, by name or address, is this machine and can be nothing else."""
+    try:
+        return host == "localhost" or ip_address(host).is_loopback
+    except ValueError:  # another name, which whoever owns it can turn to anything
+        return False
 
 
 def _cookie(request: Request, name: str) -> str:

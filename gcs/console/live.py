@@ -73,7 +73,7 @@ class Live:
 
     @property
     def names(self) -> Mapping[int, str]:
-        return self._names
+        return {sysid: self._names.get(sysid, "") for sysid in self._fleet.vehicles}
 
     @property
     def rate(self) -> float:

@@ -45,6 +45,6 @@ class ShownTime:
         if abs(behind_s) > 4.0 * step_s + self.rate * 1.0:
             self.t_s = wanted_s  # just found, begun anew, or the browser's machine slept
         else:
-            self.t_s += passed_s * self.rate + min(1.0, passed_s * PULL_PER_S) * behind_s
+            self.t_s += max(0.0, passed_s * self.rate + min(1.0, passed_s * PULL_PER_S) * behind_s)
         self.t_s = min(self.t_s, newest_s)
         return self.t_s
