@@ -81,6 +81,13 @@ parallel_jit: Callable[..., Any] = numba.njit(cache=True, error_model="python", 
 """The same, with `prange` over all cores."""
 prange = numba.prange
 
+
+def compiled_before() -> bool:
+    """Whether anything is in the cache of this version: until then, the first plan and the first rehearsal take longer
+    by their compilation."""
+    return any(Path(os.environ["NUMBA_CACHE_DIR"]).rglob("*.nbi"))
+
+
 _compiled: dict[types.FunctionType, Any] = {}
 
 
