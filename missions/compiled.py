@@ -82,10 +82,10 @@ parallel_jit: Callable[..., Any] = numba.njit(cache=True, error_model="python", 
 prange = numba.prange
 
 
-def compiled_before() -> bool:
-    """Whether anything is in the cache of this version: until then, the first plan and the first rehearsal take longer
-    by their compilation."""
-    return any(Path(os.environ["NUMBA_CACHE_DIR"]).rglob("*.nbi"))
+def compiled_before(folder: str) -> bool:
+    """Whether anything of the sources in folders of this name has been compiled and kept: until then, the first use
+    takes some 20 s longer."""
+    return any(Path(os.environ["NUMBA_CACHE_DIR"]).glob(f"{folder}_*/*.nbi"))  # named so by numba
 
 
 _compiled: dict[types.FunctionType, Any] = {}

@@ -62,16 +62,20 @@ def export(
     """
     with exit_codes():
         from gcs.cli import output
-        from gcs.export import ExportOptions
-        from gcs.export import export as write
-        from gcs.run_folder import RunFolder
+        from gcs.cli.progress import working
+
+        with working("Loading", brief=True):
+            from gcs.export import ExportOptions
+            from gcs.export import export as write
+            from gcs.run_folder import RunFolder
 
         scenario, plan = RunFolder(run).read()
         choice = [autopilot.value] * (autopilot is not Autopilot.ardupilot)
         choice += [frame.value] * (frame is not AltitudeFrame.amsl) + ["landing"] * landing
         folder = out or run / "missions" / "-".join(choice)
         folder.mkdir(parents=True, exist_ok=True)
-        exported = write(scenario, plan, ExportOptions(file_format.value, autopilot, frame, landing), folder)
+        with working("Writing files", brief=True):
+            exported = write(scenario, plan, ExportOptions(file_format.value, autopilot, frame, landing), folder)
         for path in exported.files:
             output.out.print(str(path), soft_wrap=True)
         for note in exported.notes:

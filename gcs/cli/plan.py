@@ -34,14 +34,18 @@ def plan(
     Example: skein plan radars --out runs/first
     """
     with exit_codes():
-        from gcs.cli import output
-        from gcs.cli.plan_json import plan_json
-        from gcs.cli.tables import plan_table, planned_table
-        from planner.verify import verify
+        from gcs.cli.progress import working
+
+        with working("Loading planner", brief=True):
+            from gcs.cli import output
+            from gcs.cli.plan_json import plan_json
+            from gcs.cli.tables import plan_table, planned_table
+            from planner.verify import verify
 
         run, loaded, result = plan_run(scenario, out, seed, method)
         if figures:
-            _draw(run, loaded, result)
+            with working("Drawing"):
+                _draw(run, loaded, result)
         if json:
             output.print_json({"run": str(run.path), **plan_json(result, loaded)})
             return

@@ -15,7 +15,7 @@ from planner.plan import plan as search
 def search_with_progress(scenario: Scenario, seed: int | None, method: str | None) -> FormationPlan:
     """Plan a scenario. Raises InputError as the planner does."""
     parts = [0.0] * len(scenario.vehicles)
-    first = "" if compiled_before() else ", after compiling: once, some 20 s"
+    first = "" if compiled_before("cost") else ", after compiling: once, some 20 s"
     with working(f"Planning {scenario.name}{first}") as bar:
 
         def show(progress: PlanProgress) -> None:

@@ -52,13 +52,14 @@ class Working:
 
 
 @contextmanager
-def working(what: str, count: int | None = None, done: int = 0) -> Iterator[Working]:
+def working(what: str, count: int | None = None, done: int = 0, *, brief: bool = False) -> Iterator[Working]:
     """Show that some work is under way, until the block ends.
 
     Args:
         what: it is.
         count: how many things are to be done, one `advance` each; None where the work is not counted.
         done: of them before.
+        brief: it takes seconds at most, and is worth no line where there is no terminal.
     """
     columns = (
         TextColumn("{task.description}", markup=False),
@@ -68,7 +69,7 @@ def working(what: str, count: int | None = None, done: int = 0) -> Iterator[Work
         TextColumn("{task.fields[note]}", markup=False),
     )
     moving = output.progress.is_terminal
-    if not moving:
+    if not (moving or brief):
         output.progress.print(what, markup=False, soft_wrap=True)
     with Progress(*columns, console=output.progress, transient=True, disable=not moving) as progress:
         task = progress.add_task(what, total=count, completed=done, counted=count is not None, note="")

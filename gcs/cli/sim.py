@@ -125,7 +125,10 @@ def sim(
     Example: skein sim vee --count 3
     """
     with exit_codes():
+        from contextlib import ExitStack
+
         from gcs.cli import output
+        from gcs.cli.progress import working
         from gcs.cli.station import chosen_sysids
         from gcs.cli.tables import endpoint_table, ways_to_connect
         from gcs.signing_key import read_signing_key
@@ -167,7 +170,9 @@ def sim(
                 output.progress.print("formation.reassign: a simulation knows no plan; all keep their own places")
             if first_port:
                 require_free_tcp(first_port, count or len(loaded.vehicles))
-            with Swarm(loaded, options) as swarm:
+            with ExitStack() as stack:
+                with working(f"Launching {loaded.name}", brief=True):
+                    swarm = stack.enter_context(Swarm(loaded, options))
                 output.out.print(endpoint_table(loaded.name, swarm))
                 for line in ways_to_connect(swarm, stations, memory.path):
                     output.out.print(line, soft_wrap=True)

@@ -9,7 +9,9 @@ import pytest
 from rich.console import Console
 
 from gcs.cli import output
+from gcs.cli.live import LiveTable
 from gcs.cli.progress import working
+from gcs.watch import VehicleStatus
 
 
 def test_a_demo_speaks_before_it_loads_anything_heavy(tmp_path: Path) -> None:
@@ -54,3 +56,22 @@ def test_work_that_nobody_can_count_shows_how_long_it_has_taken(monkeypatch: pyt
         pass
     assert "0:00 so far" in written.getvalue()
     assert "0/" not in written.getvalue()
+
+
+def test_a_flight_shows_how_far_it_is_and_the_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    written = io.StringIO()
+    console = Console(file=written, force_terminal=True, width=80)
+    with LiveTable(console) as live:
+        for time_s in (0.0, 100.0, 250.0):
+            live.show([VehicleStatus(i, f"G{i}", 1000.0, 1100.0, 5, time_s=time_s) for i in (1, 2)])
+    last = written.getvalue().rpartition("Flying")[2]
+    assert "25%" in last
+    assert " left" in last
+
+
+def test_away_from_a_terminal_a_flight_is_its_steps() -> None:
+    written = io.StringIO()
+    with LiveTable(Console(file=written)) as live:
+        live.announce("Launching [9] endpoints")
+        live.show([VehicleStatus(1, "G1", 1000.0, 1100.0, 5)])
+    assert written.getvalue() == "Launching [9] endpoints\n"
