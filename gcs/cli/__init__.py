@@ -1,5 +1,7 @@
 """The command line: one command a file. Heavy packages are imported inside the commands, so that help is quick."""
 
+from typing import Annotated
+
 import typer
 
 from gcs.cli.bench import bench
@@ -26,15 +28,26 @@ from gcs.cli.sim import sim
 from gcs.cli.status import status
 from gcs.cli.study import study
 from gcs.cli.upload import upload
+from gcs.cli.verbosity import Commands, VerboseOption, show_version, start_saying
 
-app = typer.Typer(
+app = Commands(
     name="skein",
-    help="Plan, upload and fly formation missions for fixed-wing aircraft over MAVLink.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # its help takes three times as long to come
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+VersionOption = Annotated[
+    bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print versions, and end.")
+]
+
+
+@app.callback()
+def skein(verbose: VerboseOption = 0, version: VersionOption = False) -> None:
+    """Plan, upload and fly formation missions for fixed-wing aircraft over MAVLink."""
+    start_saying(verbose)
+
+
 ON_THIS_MACHINE = (
     demo,
     plan,

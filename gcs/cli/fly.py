@@ -91,6 +91,7 @@ def fly_and_report(
     """Fly with a live table on standard error, write metrics and figures, print the report; exit with 1 if something
     fell short."""
     import asyncio
+    import logging
 
     from gcs.cli import output
     from gcs.cli.flight_report import show_report, warn_of_delay
@@ -100,6 +101,7 @@ def fly_and_report(
     from gcs.report import write_report
 
     warn_of_delay(scenario, options.delay_s, options.arm)
+    logging.getLogger(__name__).info("%s: seed %d, %s", run.path, plan.seed, options)
     with LiveTable(output.progress) as live:
         record = asyncio.run(fly_plan(scenario, plan, run, options, live.announce, live.show))
     with working("Computing figures of merit, drawing"):

@@ -4,6 +4,8 @@ On a terminal that is a line which moves, and goes when the work is over; elsewh
 output is left alone.
 """
 
+import logging
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -11,6 +13,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.text import Text
 
 from gcs.cli import output
+
+_log = logging.getLogger(__name__)
 
 BAR_WIDTH = 24
 
@@ -73,7 +77,9 @@ def working(what: str, count: int | None = None, done: int = 0, *, brief: bool =
         output.progress.print(what, markup=False, soft_wrap=True)
     with Progress(*columns, console=output.progress, transient=True, disable=not moving) as progress:
         task = progress.add_task(what, total=count, completed=done, counted=count is not None, note="")
+        began_s = time.monotonic()
         yield Working(progress, task)
+        _log.info("%s: %.3f s", what, time.monotonic() - began_s)
 
 
 def _clock(seconds: float) -> str:

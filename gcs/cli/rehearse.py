@@ -146,6 +146,8 @@ def rehearse_once(
 ) -> None:
     """Rehearse, keep truth, metrics and figures if there is a folder for them, print the report; exit with 1 if
     something fell short."""
+    import logging
+
     from gcs.campaign.axes import ARM, DELAY, make_axes
     from gcs.cli.compiling import compile_with_progress
     from gcs.cli.flight_report import show_report, warn_of_delay
@@ -168,6 +170,7 @@ def rehearse_once(
         arm=chosen.get(ARM, "full"),
     )
     warn_of_delay(scenario, options.delay_s, options.arm)
+    logging.getLogger(__name__).info("%s: %s", scenario.name, options)
     require(verify(plan, scenario))
     compile_s = compile_with_progress(scenario, plan)
     with working(f"Rehearsing {scenario.name}", brief=True):

@@ -16,13 +16,12 @@ from gcs.cli.station import (
     WaitOption,
     for_vehicles,
 )
+from gcs.cli.verbosity import Commands
 
 if TYPE_CHECKING:
     from gcs.vehicle_link import VehicleLink
 
-signing = typer.Typer(
-    name="signing", help="Make a signing key, give it to vehicles, take it away.", no_args_is_help=True
-)
+signing = Commands(name="signing", help="Make a signing key, give it to vehicles, take it away.", no_args_is_help=True)
 
 NewFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="To be made; one that is there stays as it is.")]
 FileArgument = Annotated[

@@ -7,11 +7,12 @@ import typer
 
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption
+from gcs.cli.verbosity import Commands
 from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
 
 SEEDS, QUICK_SEEDS = 20, 3
 
-study = typer.Typer(name="study", help="Study the formation law over many flights.", no_args_is_help=True)
+study = Commands(name="study", help="Study the formation law over many flights.", no_args_is_help=True)
 
 SourceArgument = Annotated[
     str, typer.Argument(metavar="[SCENARIO|FILE|RUN]", help="A scenario that ships, a TOML file, or a planned run.")
