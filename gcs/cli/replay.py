@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import finite
+from gcs.cli.options import JsonOption, finite
 
 FilesArgument = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Telemetry logs, one a vehicle or more.")]
 ToOption = Annotated[
@@ -18,7 +18,9 @@ PaceOption = Annotated[
 ]
 
 
-def replay(files: FilesArgument, to: ToOption = "udpout://127.0.0.1:14550", speed: PaceOption = 1.0) -> None:
+def replay(
+    files: FilesArgument, to: ToOption = "udpout://127.0.0.1:14550", speed: PaceOption = 1.0, json: JsonOption = False
+) -> None:
     """Play telemetry logs back to any ground station.
 
     With the pace of their stamps.
@@ -47,4 +49,8 @@ def replay(files: FilesArgument, to: ToOption = "udpout://127.0.0.1:14550", spee
             finally:
                 await link.close()
 
-        output.out.print(f"{asyncio.run(main())} frames sent")
+        frames = asyncio.run(main())
+        if json:
+            output.print_json({"frames": frames, "logged_s": lasts_s})
+        else:
+            output.out.print(f"{frames} frames sent")

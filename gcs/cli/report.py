@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import RunArgument
+from gcs.cli.options import JsonOption, RunArgument
 from gcs.cli.workers import JobsOption
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ def report(
     out: PageOption = None,
     no_delays: NoDelaysOption = False,
     jobs: JobsOption = None,
+    json: JsonOption = False,
 ) -> None:
     """Write a flown run as one HTML page that needs no network.
 
@@ -49,7 +50,10 @@ def report(
         file = out or run / "report.html"
         with working("Drawing", brief=True):
             write_page(list(zip(runs, curves, strict=True)), file)
-        output.out.print(f"Report: {file}", soft_wrap=True)
+        if json:
+            output.print_json({"report": str(file)})
+        else:
+            output.out.print(f"Report: {file}", markup=False, soft_wrap=True)
 
 
 def _curves(runs: "list[FlownRun]", jobs: int | None) -> "list[list[DelayPoint]]":

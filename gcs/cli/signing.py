@@ -34,7 +34,7 @@ OverNetworkOption = Annotated[
 
 
 @signing.command("new")
-def new(file: NewFileArgument) -> None:
+def new(file: NewFileArgument, json: JsonOption = False) -> None:
     """Make a random key, in a file that nobody else can read.
 
     Example: skein signing new swarm.key
@@ -44,7 +44,10 @@ def new(file: NewFileArgument) -> None:
         from gcs.signing_key import make_signing_key
 
         make_signing_key(file)
-        output.out.print(f"{file}: a new key; keep a copy, for vehicles hear nobody without it", markup=False)
+        if json:
+            output.print_json({"file": str(file)})
+        else:
+            output.out.print(f"{file}: a new key; keep a copy, for vehicles hear nobody without it", markup=False)
 
 
 @signing.command("set")

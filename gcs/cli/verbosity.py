@@ -32,7 +32,10 @@ VerboseOption = Annotated[
 
 
 class Commands(typer.Typer):
-    """Commands that take -v, each of them."""
+    """Commands that take -v, each of them, with help in plain text: richer help takes three times as long to come."""
+
+    def __init__(self, *, add_completion: bool = False, **options: Any) -> None:
+        super().__init__(add_completion=add_completion, rich_markup_mode=None, **options)
 
     def command(self, name: str | None = None, **options: Any) -> Callable[[Function], Function]:
         """As of typer.Typer."""

@@ -73,13 +73,3 @@ def test_the_version_is_that_of_skein_and_of_what_a_flight_depends_on(skein: Ske
     names = [line.split(" ")[0] for line in result.stdout.splitlines()]
     assert names[0] == "skein-gcs"
     assert {"Python", "numpy", "pymavlink"} <= set(names)
-
-
-def test_every_command_takes_v(skein: Skein) -> None:
-    commands = [line.split()[0] for line in skein("--help").stdout.partition("Commands:\n")[2].splitlines()]
-    assert len(commands) > 25
-    groups = [["params", "list"], ["signing", "off"], ["study", "delay"]]
-    for words in [[one] for one in commands if one not in ("params", "signing", "study")] + groups:
-        result = skein(*words, "--help")
-        assert result.exit_code == 0
-        assert "-v, --verbose" in result.stdout, words
