@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gcs.cli.completion import methods
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption, OutOption, ScenarioArgument, SeedOption
 
@@ -14,7 +15,10 @@ if TYPE_CHECKING:
     from planner.formation_plan import FormationPlan
 
 MethodOption = Annotated[
-    str | None, typer.Option("--method", metavar="M", help="Search: skein, pso, qpso, hybrid or published.")
+    str | None,
+    typer.Option(
+        "--method", metavar="M", help="Search: skein, pso, qpso, hybrid or published.", autocompletion=methods
+    ),
 ]
 FiguresOption = Annotated[
     bool, typer.Option("--figures", help="Draw the plan into the run's figures/: the scene, maps, heights.")

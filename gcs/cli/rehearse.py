@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gcs.cli.completion import sources
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption, NoCorrectionsOption, NoNeighboursOption, OutOption, chosen_arm
 from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
 SourceArgument = Annotated[
     str,
     typer.Argument(
-        metavar="[SCENARIO|FILE|RUN]", help="A scenario that ships, a TOML file, or the folder of a planned run."
+        metavar="[SCENARIO|FILE|RUN]",
+        help="A scenario that ships, a TOML file, or the folder of a planned run.",
+        autocompletion=sources,
     ),
 ]
 SeedOption = Annotated[

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from gcs.cli.completion import sources
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption
 from gcs.cli.verbosity import Commands
@@ -15,7 +16,12 @@ SEEDS, QUICK_SEEDS = 20, 3
 study = Commands(name="study", help="Study the formation law over many flights.", no_args_is_help=True)
 
 SourceArgument = Annotated[
-    str, typer.Argument(metavar="[SCENARIO|FILE|RUN]", help="A scenario that ships, a TOML file, or a planned run.")
+    str,
+    typer.Argument(
+        metavar="[SCENARIO|FILE|RUN]",
+        help="A scenario that ships, a TOML file, or a planned run.",
+        autocompletion=sources,
+    ),
 ]
 SeedsOption = Annotated[
     int | None, typer.Option("--seeds", min=2, metavar="N", help=f"Flights a point; {SEEDS} unless given.")
