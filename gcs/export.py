@@ -1,5 +1,6 @@
 """A run's missions as files for autopilots, other ground stations, maps and globes."""
 
+import logging
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -19,6 +20,8 @@ from missions.formats.scene import Scene
 from missions.formats.waypoints import write_waypoints
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
+
+_log = logging.getLogger(__name__)
 
 _SCENE_WRITERS: Mapping[str, Callable[[Scene, Path], None]] = {
     "kml": write_kml,
@@ -82,6 +85,7 @@ def export(scenario: Scenario, formation: FormationPlan, options: ExportOptions,
         else:
             write_waypoints(plan.mission, path)
         files.append(path)
+        _log.debug("%s written", path)
     return Exported(tuple(files), tuple(_notes(scenario, vehicles, options)))
 
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import logging
 import time
 from collections.abc import Callable, Collection
 from types import TracebackType
@@ -18,6 +19,8 @@ from gcs.vehicle_link import VehicleLink
 from missions.errors import InputError
 from sitl.services.peer import Message, Peer
 from sitl.services.signing import Signing, Verdict
+
+_log = logging.getLogger(__name__)
 
 _HEARTBEAT_PERIOD_S = 1.0
 _HEARD_OUT_S = 1.2
@@ -253,8 +256,10 @@ class Fleet:
             send = self._sender(sysid, channel)
             vehicle = VehicleLink(sysid, compid, channel.peer, send, self._log_of(sysid), self._signing)
             self.vehicles[sysid], self._routes[sysid] = vehicle, Routes(channel)
+            _log.info("%s found at %s: autopilot %d, type %d", vehicle, channel.peer, message.autopilot, message.type)
         elif compid != vehicle.compid:
             self._routes[sysid].rival = channel
+            _log.debug("%s: a second one of this system id at %s", vehicle, channel.peer)
             return None
         else:
             used = self._routes[sysid].used

@@ -44,6 +44,7 @@ async def replay(
     speed: float,
     now: Callable[[], float] = time.monotonic,
     sleep: Sleep = asyncio.sleep,
+    told: Callable[[float], None] = lambda _: None,
 ) -> int:
     """Play messages back over a link, at the pace of their stamps; on a link that listens, once somebody is there.
 
@@ -52,6 +53,7 @@ async def replay(
         link: not attached to anything.
         speed: logged seconds a second, more than 0.
         now, sleep: the time in seconds, and a way to let some of it pass.
+        told: called with how many logged seconds have been played.
 
     Returns:
         The number of frames sent.
@@ -65,6 +67,7 @@ async def replay(
             await sleep(wait_s)
         for peer in (*link.greeted, *peers):
             link.send(piece, peer)
+        told(time_s - first_s)
     return len(messages)
 
 

@@ -8,6 +8,7 @@ and terrain.npz, the ground of a scenario with a raster: the file that it names 
 import contextlib
 import itertools
 import json
+import logging
 import shutil
 import time
 from collections.abc import Iterable, Iterator
@@ -21,6 +22,8 @@ from missions.elevation import write_local_raster
 from missions.errors import InputError
 from missions.scenario import Scenario, parse_scenario
 from planner.formation_plan import FormationPlan, load_plan
+
+_log = logging.getLogger(__name__)
 
 RUNS = Path("runs")
 """Where runs go that are given no folder."""
@@ -77,6 +80,7 @@ class RunFolder:
             missions.mkdir(exist_ok=True)
         except OSError as error:
             raise _unwritable(self.path, error) from None
+        _log.info("%s: scenario and plan written", self.path)
         for file_format in ("plan", "waypoints"):
             export(scenario, plan, ExportOptions(file_format), missions)
 
@@ -92,6 +96,7 @@ class RunFolder:
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
             raise InputError(f"{file}: {reason}; is {self.path} a run? `skein plan` makes one") from None
+        _log.info("%s: reading scenario and plan", self.path)
         return parse_scenario(text, str(file), self.path, self.raster.absolute()), load_plan(self.path / "plan.json")
 
     @contextlib.contextmanager
@@ -132,6 +137,7 @@ class RunFolder:
         file = self.path / name
         try:
             file.write_text(text, encoding="utf-8")
+            _log.info("%s written", file)
         except OSError as error:
             file.unlink(missing_ok=True)  # rather none than half of one
             raise _unwritable(file, error) from None

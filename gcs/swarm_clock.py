@@ -1,6 +1,7 @@
 """Holding, releasing, pacing and stopping a swarm's clocks over Zenoh (the queryable `skein/<swarm>/clock`)."""
 
 import contextlib
+import logging
 import queue
 import time
 from collections.abc import Iterable, Iterator
@@ -10,6 +11,8 @@ import zenoh
 from gcs.swarm_query import Answers, ask_swarm
 from missions.errors import InputError
 from sitl.zenoh_session import alive_key, clock_key, sysid_of
+
+_log = logging.getLogger(__name__)
 
 TIMEOUT_S = 5.0
 START_IN_S = 0.5
@@ -46,6 +49,7 @@ class SwarmClock:
             raise InputError(f"vehicles {sorted(missing)} cannot be reached over Zenoh") from None
         finally:
             subscriber.undeclare()
+        _log.info("Zenoh: the clocks of swarm %s are there", swarm)
 
     def release(self, sysids: Iterable[int]) -> None:
         """Let the clocks of these vehicles go on.

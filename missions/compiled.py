@@ -81,6 +81,13 @@ parallel_jit: Callable[..., Any] = numba.njit(cache=True, error_model="python", 
 """The same, with `prange` over all cores."""
 prange = numba.prange
 
+
+def compiled_before(folder: str) -> bool:
+    """Whether anything of the sources in folders of this name has been compiled and kept: until then, the first use
+    takes some 20 s longer."""
+    return any(Path(os.environ["NUMBA_CACHE_DIR"]).glob(f"{folder}_*/*.nbi"))  # named so by numba
+
+
 _compiled: dict[types.FunctionType, Any] = {}
 
 

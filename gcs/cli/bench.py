@@ -120,12 +120,15 @@ def bench(
         if together:
             plan_together(methods, seeds or (QUICK_SEEDS if quick else SEEDS), update_best, json)
             return
-        from gcs.cli import output
-        from gcs.cli.bench_tables import family_table, method_table
-        from planner.bench.best_known import load_best_known
-        from planner.bench.compare import offer_runs
-        from planner.bench.methods import method_names
-        from planner.bench.problems import bench_problem, problem_names
+        from gcs.cli.progress import working
+
+        with working("Loading planner", brief=True):
+            from gcs.cli import output
+            from gcs.cli.bench_tables import family_table, method_table
+            from planner.bench.best_known import load_best_known
+            from planner.bench.compare import offer_runs
+            from planner.bench.methods import method_names
+            from planner.bench.problems import bench_problem, problem_names
 
         limits = chosen_limits(
             budget if budget is not None else QUICK_BUDGET if quick else BUDGET,
@@ -168,9 +171,11 @@ def measure_kernel(json: bool) -> None:
 
     from gcs.cli import output
     from gcs.cli.bench_tables import kernel_table, work_table
+    from gcs.cli.progress import working
     from planner.bench.kernel_speed import kernel_speeds
 
-    peaks, speeds = kernel_speeds()
+    with working("Measuring the compiled objective"):
+        peaks, speeds = kernel_speeds()
     if json:
         output.print_json({"peaks_per_s": peaks, "kernel": [asdict(speed) for speed in speeds]})
     else:
@@ -184,11 +189,13 @@ def plan_many(quick: bool, out: Path | None, json: bool) -> None:
 
     from gcs.cli import output
     from gcs.cli.bench_tables import growth_table
+    from gcs.cli.progress import working
     from gcs.figures.growth import draw_growth
     from planner.bench.growth import NUMBERS, exponent, measure_growth
 
-    with output.progress.status("Planning fields of vehicles"):
-        growths = measure_growth(NUMBERS[:2] if quick else NUMBERS)
+    numbers = NUMBERS[:2] if quick else NUMBERS
+    with working("Planning fields of vehicles", count=len(numbers)) as bar:
+        growths = measure_growth(numbers, bar.advance)
     if json:
         output.print_json({"growth": [asdict(growth) for growth in growths], "exponent": exponent(growths)})
     else:
@@ -202,6 +209,7 @@ def plan_together(methods: str, seeds: int, update_best: bool, json: bool) -> No
     """Plan all vehicles of the paper's scenarios with each of some methods, `skein` unless named."""
     from gcs.cli import output
     from gcs.cli.bench_tables import together_table
+    from gcs.cli.progress import working
     from missions.errors import InputError
     from missions.scenario import load_scenario
     from planner.bench.best_known import load_best_known
@@ -214,18 +222,19 @@ def plan_together(methods: str, seeds: int, update_best: bool, json: bool) -> No
         if method not in METHODS:
             raise InputError(f"method {method}: plans are made by {', '.join(METHODS)}")
     known, figures, better = load_best_known(), [], []
-    for name in SCENARIOS:
-        scenario = load_scenario(name)
-        if offer_best_paths(known, scenario):
-            better.append(name)
-        best_km = known.value_km(plan_digest(scenario))
-        for method in chosen:
-            runs = []
-            for seed in range(1, seeds + 1):
-                with output.progress.status(f"Planning {name}, {method}, seed {seed} of {seeds}"):
+    with working("Planning", count=len(SCENARIOS) * len(chosen) * seeds) as bar:
+        for name in SCENARIOS:
+            scenario = load_scenario(name)
+            if offer_best_paths(known, scenario):
+                better.append(name)
+            best_km = known.value_km(plan_digest(scenario))
+            for method in chosen:
+                runs = []
+                for seed in range(1, seeds + 1):
                     runs.append(plan_run(scenario, method, seed))
-            figures.append(plan_figures(runs, best_km))
-            better += [name for run in runs if run.plan and offer_plan(known, scenario, run.plan)]
+                    bar.advance(f"Planning {name}, {method}")
+                figures.append(plan_figures(runs, best_km))
+                better += [name for run in runs if run.plan and offer_plan(known, scenario, run.plan)]
     if json:
         output.print_json(figures)
     else:
@@ -260,20 +269,16 @@ def with_progress(
     workers: "Workers",
 ) -> "Comparison":
     """Run everything with a progress bar on standard error."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    from gcs.cli import output
+    from gcs.cli.progress import working
     from planner.bench.best_known import load_best_known
     from planner.bench.compare import compare
     from planner.bench.job import Job, Run
     from planner.jobs.run_jobs import Failure
 
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=output.progress, transient=True) as bar:
-        task = bar.add_task("Running", total=len(problems) * len(methods) * seeds * len(limits))
+    with working("Searching", count=len(problems) * len(methods) * seeds * len(limits)) as bar:
 
         def done(result: Run | Failure[Job]) -> None:
-            bar.update(task, advance=1, description=result.job.name)
+            bar.advance(result.job.name)
 
         return compare(problems, methods, seeds, limits, workers, load_best_known(), done)
 

@@ -16,14 +16,16 @@ def bench_chain(quick: bool, json: bool) -> None:
     """Plan, write, read, fly, compare, and print; exit with 1 if the whole is off by more than it may be."""
     from gcs.bench.position_chain import measure_chain
     from gcs.cli import output
+    from gcs.cli.progress import working
     from missions.scenario import load_scenario, shipped_scenarios
     from planner.plan import plan
 
-    chains = []
-    for name in QUICK if quick else shipped_scenarios():
-        with output.progress.status(f"Planning and flying {name}"):
+    names, chains = QUICK if quick else shipped_scenarios(), []
+    with working("Planning and flying", count=len(names)) as bar:
+        for name in names:
             scenario = load_scenario(name)
             chains.append(measure_chain(scenario, plan(scenario)))
+            bar.advance()
     if json:
         output.print_json({"chains": [chain.as_json() for chain in chains]})
     else:

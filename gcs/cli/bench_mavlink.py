@@ -12,13 +12,18 @@ def measure_mavlink(quick: bool, json: bool) -> None:
     from gcs.bench.foreign_stations import compare_stations
     from gcs.bench.station_load import Load, listen
     from gcs.cli import output
+    from gcs.cli.progress import working
     from missions.scenario import load_scenario
 
     scenario = load_scenario("vee")
-    footprint = measure_footprint(scenario)
-    stations = compare_stations(scenario)
     load = Load(seconds=2.0) if quick else Load()
-    listened = asyncio.run(listen(load))
+    with working("Measuring endpoints, stations, a station's load", count=3) as bar:
+        footprint = measure_footprint(scenario)
+        bar.advance()
+        stations = compare_stations(scenario)
+        bar.advance()
+        listened = asyncio.run(listen(load))
+        bar.advance()
     if json:
         output.print_json(
             {"footprint": asdict(footprint), "stations": asdict(stations), "load": asdict(load) | asdict(listened)}

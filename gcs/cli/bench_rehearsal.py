@@ -15,11 +15,13 @@ def bench_rehearsal(quick: bool, json: bool) -> None:
     from gcs.bench.rehearsal_speed import measure_rehearsal
     from gcs.cli import output
     from gcs.cli.planning import search_with_progress
+    from gcs.cli.progress import working
     from missions.scenario import load_scenario
 
     scenario = load_scenario(SCENARIO)
     plan = search_with_progress(scenario, None, None)
-    speed = measure_rehearsal(scenario, plan, QUICK_RUNS if quick else RUNS, output.progress.print)
+    with working("Rehearsing and flying", brief=True):
+        speed = measure_rehearsal(scenario, plan, QUICK_RUNS if quick else RUNS, output.progress.print)
     if json:
         output.print_json(asdict(speed))
     else:

@@ -1,4 +1,4 @@
-"""The tables of `skein bench`; they fit 100 columns."""
+"""The tables of `skein bench`; they fit 80 columns, but for many families side by side."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -19,11 +19,11 @@ def method_table(comparison: Comparison, limit: Limit) -> Table:
     friedman = figures["friedman_p"]
     title = f"At {limit.label}, {len(comparison.problems)} problems"
     table = _table(title if friedman is None else f"{title}; were all methods alike, p = {_short(friedman)}")
-    used, key = ("CPU s", "cpu_s") if limit.cpu_s else ("evals/d", "evaluations_per_dimension")
+    used, key = ("CPU\ns", "cpu_s") if limit.cpu_s else ("evals\n/d", "evaluations_per_dimension")
     headings = ["gap %", "quartiles"]
     for target in TARGETS:
-        headings += [f"in {100 * target:g} %", used]
-    for heading in (*headings, "rank", f"p vs {figures['reference']}"):
+        headings += [f"in\n{100 * target:g} %", used]
+    for heading in (*headings, "rank", f"p vs\n{figures['reference']}"):
         table.add_column(heading, justify="right", no_wrap=True)
     for method, row in sorted(figures["methods"].items(), key=lambda item: float(item[1]["mean_rank"])):
         if not row["runs"]:
@@ -56,7 +56,14 @@ def family_table(comparison: Comparison, limit: Limit) -> Table:
 def kernel_table(speeds: Sequence[KernelSpeed]) -> Table:
     """Evaluations a second."""
     table = _table("Evaluations of the objective a second", "problem")
-    for heading in ("ground", "1 thread", f"{speeds[0].threads} threads", "numpy", "1 thread / numpy", "part of peak"):
+    for heading in (
+        "ground",
+        "1 thread",
+        f"{speeds[0].threads} threads",
+        "numpy",
+        "1 thread\n/ numpy",
+        "part\nof peak",
+    ):
         table.add_column(heading, justify="right", no_wrap=True)
     for speed in speeds:
         rates = (speed.one_thread, speed.all_threads, speed.in_numpy)
@@ -91,8 +98,8 @@ def together_table(figures: Sequence[Mapping[str, Any]]) -> Table:
         "best km",
         "gap %",
         "quartiles",
-        *(f"in {100 * t:g} %" for t in TARGETS),
-        "plan s",
+        *(f"in\n{100 * t:g} %" for t in TARGETS),
+        "plan\ns",
     ):
         table.add_column(heading, justify="right", no_wrap=True)
     for row in figures:
@@ -122,7 +129,7 @@ def growth_table(growths: Sequence[Growth], power: float) -> Table:
 
 
 def _table(title: str, first: str = "method") -> Table:
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False, min_width=60)
+    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     table.add_column(first, no_wrap=True)
     return table
 

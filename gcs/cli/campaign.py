@@ -26,6 +26,7 @@ def fly_and_summarise(
     from gcs.campaign.table import Table
     from gcs.cli import output
     from gcs.cli.campaign_table import campaign_table, legend
+    from gcs.cli.progress import working
     from gcs.figures.campaign import draw_campaign
 
     if parquet:
@@ -36,8 +37,9 @@ def fly_and_summarise(
         except KeyboardInterrupt:
             output.progress.print(f"{len(table.rows)} flights are kept; the same command with --out {run.path} goes on")
             raise
-        settings = summarise(campaign, table)
-        files = draw_campaign(campaign, table, run.figures)
+        with working("Drawing", brief=True):
+            settings = summarise(campaign, table)
+            files = draw_campaign(campaign, table, run.figures)
         if parquet:
             files.append(write_parquet(table, run.path / "runs.parquet"))
     if json:
@@ -61,25 +63,23 @@ def fly_and_summarise(
 
 def _with_progress(campaign: "Campaign", table: "Table", workers: "Workers") -> int:
     """Fly what is missing; returns how many flights gave no result, each of which is told of."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
     from gcs.campaign.case import Case, Flown
     from gcs.campaign.fly import fly_campaign, missing_cases
     from gcs.cli import output
+    from gcs.cli.progress import working
     from planner.jobs.run_jobs import Failure
 
     failures = 0
     total, missing = len(list(campaign.cases())), len(missing_cases(campaign, table))
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=output.progress, transient=True) as bar:
-        task = bar.add_task("Compiling", total=total, completed=total - missing)
+    name = campaign.scenario.name
+    with working(f"Rehearsing {name}, after compiling", count=total, done=total - missing) as bar:
 
         def done(result: Flown | Failure[Case]) -> None:
             nonlocal failures
-            bar.update(task, advance=1, description=f"Rehearsing {campaign.scenario.name}")
+            bar.advance(f"Rehearsing {name}")
             if isinstance(result, Failure):
                 failures += 1
-                bar.console.print(f"No result: seed {result.job.seed}: {result.reason}", markup=False)
+                output.progress.print(f"No result: seed {result.job.seed}: {result.reason}", markup=False)
 
         fly_campaign(campaign, table, workers, done)
     return failures

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from rich import box
 from rich.markup import escape
 from rich.table import Table
 
@@ -21,7 +22,7 @@ def campaign_table(campaign: Campaign, settings: Sequence[Setting]) -> Table:
             *(f"{key} {next(iter(labels(values).values()))}" for key, values in fixed.items()),
         ]
     )
-    table = Table(title=escape(title), title_justify="left")
+    table = Table(title=escape(title), title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
     short = {key: labels(values) for key, values in campaign.axes.items()}
     for heading in varied:
         table.add_column(escape(heading.rpartition(".")[2]), no_wrap=True)

@@ -71,34 +71,39 @@ def check(
     Example: skein check a.plan b.waypoints --terrain ground.tif --endurance 45
     """
     with exit_codes():
-        from gcs.check.check import check_files
-        from gcs.check.setting import setting_for
-        from gcs.cli import output
-        from missions.errors import InputError
-        from missions.scenario import load_scenario
+        from gcs.cli.progress import working
+
+        with working("Loading", brief=True):
+            from gcs.check.check import check_files
+            from gcs.check.setting import setting_for
+            from gcs.cli import output
+            from missions.errors import InputError
+            from missions.scenario import load_scenario
 
         if scenario is not None and (airframe is not None or terrain is not None):
             raise InputError("--scenario brings its airframe and its ground; leave --airframe and --terrain out")
-        found = read_files(files, home, complex_items)
-        against = (
-            setting_for([one.plan.mission for one in found], airframe, terrain)
-            if scenario is None
-            else load_scenario(scenario)
-        )
+        with working("Reading files and ground", brief=True):
+            found = read_files(files, home, complex_items)
+            against = (
+                setting_for([one.plan.mission for one in found], airframe, terrain)
+                if scenario is None
+                else load_scenario(scenario)
+            )
         asked = StationOptions(connect, vehicle, wait, signing_key, json)
         limits = None if connect is None and vehicle is None else _limits_of(asked)
         ground_known = scenario is not None or terrain is not None
-        checked = check_files(
-            found,
-            against,
-            ground_known=ground_known,
-            limits_given=scenario is not None,
-            endurance_s=math.inf if endurance is None else 60.0 * endurance,
-            range_m=math.inf if range_km is None else 1000.0 * range_km,
-            vehicle=limits,
-        )
-        if figure is not None:
-            _draw(found, against, figure)
+        with working("Checking", brief=True):
+            checked = check_files(
+                found,
+                against,
+                ground_known=ground_known,
+                limits_given=scenario is not None,
+                endurance_s=math.inf if endurance is None else 60.0 * endurance,
+                range_m=math.inf if range_km is None else 1000.0 * range_km,
+                vehicle=limits,
+            )
+            if figure is not None:
+                _draw(found, against, figure)
         unchecked = _unchecked(ground_known, scenario is not None, endurance is not None or range_km is not None)
         if limits is not None and not limits.capacities:
             unchecked.append("how many items the vehicle takes: it does not say, or is not ready, or flies")

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import RunArgument
+from gcs.cli.options import JsonOption, RunArgument
 from gcs.cli.station import DEFAULT_URL, KeyOption
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from gcs.companion.companion import Companion
     from gcs.companion.run import Companionship
     from sitl.services.signing import Signing
@@ -35,6 +37,7 @@ def companion(
     zenoh: ZenohFileOption,
     vehicle: VehicleUrlOption = DEFAULT_URL,
     signing_key: KeyOption = None,
+    json: JsonOption = False,
 ) -> None:
     """Keep one vehicle with its neighbours, from beside it.
 
@@ -59,15 +62,18 @@ def companion(
         if slot not in shared.slots:
             raise InputError(f"--slot {slot}: the plan has {', '.join(map(str, shared.slots))}")
         network = read_zenoh_file(zenoh)
-        arrival_s = asyncio.run(_accompany(shared, slot, network, vehicle, signing_of(signing_key)))
-        if arrival_s is not None:
+        told = output.progress if json else output.out
+        arrival_s = asyncio.run(_accompany(shared, slot, network, vehicle, signing_of(signing_key), told))
+        if json:
+            output.print_json({"slot": slot, "planned_s": shared.planned_s[slot], "arrival_s": arrival_s})
+        elif arrival_s is not None:
             output.out.print(f"Slot {slot}: arrived, {arrival_s - shared.planned_s[slot]:+.2f} s against the plan")
 
 
 async def _accompany(
-    shared: "Companionship", slot: int, network: "ZenohNetwork", url: str, signing: "Signing"
+    shared: "Companionship", slot: int, network: "ZenohNetwork", url: str, signing: "Signing", told: "Console"
 ) -> float | None:
-    """When its path was over, since the launch."""
+    """When its path was over, since the launch; who is accompanied is printed to `told`."""
     from gcs.cli import output
     from gcs.companion.neighbourhood import Neighbourhood
     from gcs.companion.run import accompany
@@ -83,7 +89,7 @@ async def _accompany(
         with open_session(network.client(vehicle_name(slot)), real_time=True) as session:
             near = Neighbourhood(session, network.swarm, slot, shared.weights(slot))
             others = ", ".join(map(str, shared.weights(slot)))
-            output.out.print(f"Slot {slot}: {vehicle} at {vehicle.peer}, neighbours {others}")
+            told.print(f"Slot {slot}: {vehicle} at {vehicle.peer}, neighbours {others}")
 
             def make(command: Callable[[float], None]) -> "Companion":
                 return shared.companion(slot, near.say, near.heard, command)

@@ -34,11 +34,14 @@ def demo(
     Example: skein demo vee --delay 0.4
     """
     with exit_codes():
-        from gcs.cli import output
-        from gcs.cli.fly import fly_and_report
-        from gcs.cli.plan import plan_run
-        from gcs.cli.tables import plan_table
-        from gcs.flight import FlightOptions
+        from gcs.cli.progress import working
+
+        with working("Loading planner and simulation"):
+            from gcs.cli import output
+            from gcs.cli.fly import fly_and_report
+            from gcs.cli.plan import plan_run
+            from gcs.cli.tables import plan_table
+            from gcs.flight import FlightOptions
 
         arm = chosen_arm(no_corrections, no_neighbours)
         run, loaded, plan = plan_run(scenario, out, seed)

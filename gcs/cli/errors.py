@@ -1,5 +1,5 @@
-"""How commands end: 0 all well, 1 flown but something fell short, 2 bad input, 130 interrupted, 143 terminated,
-129 terminal closed."""
+"""How commands end: 0 all well, 1 flown but something fell short, 2 bad input, 70 a fault of Skein's own,
+130 interrupted, 143 terminated, 129 terminal closed."""
 
 import signal
 import sys
@@ -8,6 +8,8 @@ from contextlib import contextmanager
 
 FELL_SHORT = 1
 BAD_INPUT = 2
+FAULT = 70
+"""EX_SOFTWARE of sysexits.h."""
 INTERRUPTED = 130
 TERMINATED = 143
 HUNG_UP = 129
@@ -31,6 +33,21 @@ def exit_codes() -> Iterator[None]:
         where = f"{error.filename}: " if error.filename else ""
         print(f"skein: {where}{error.strerror or error}", file=sys.stderr)
         raise SystemExit(BAD_INPUT) from None
+    except Exception as error:
+        print(_told(error), file=sys.stderr)
+        raise SystemExit(FAULT) from None
     except KeyboardInterrupt:
         print("skein: interrupted", file=sys.stderr)
         raise SystemExit(INTERRUPTED) from None
+
+
+def _told(error: Exception) -> str:
+    """What is said of an error that nobody has foreseen."""
+    from gcs.cli.verbosity import is_verbose
+
+    if is_verbose():
+        import traceback
+
+        return "".join(traceback.format_exception(error)) + "skein: please report this"
+    words = " ".join(str(error).split())
+    return f"skein: {type(error).__name__}: {words}: a fault of Skein's; please report it, -v shows where it is"

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import RunArgument
+from gcs.cli.options import JsonOption, RunArgument
 from missions.altitude_frame import AltitudeFrame
 from missions.autopilot import Autopilot
 
@@ -53,6 +53,7 @@ def export(
     frame: FrameOption = AltitudeFrame.amsl,
     landing: LandingOption = False,
     out: FolderOption = None,
+    json: JsonOption = False,
 ) -> None:
     """Write missions as files for autopilots, stations and maps.
 
@@ -62,17 +63,24 @@ def export(
     """
     with exit_codes():
         from gcs.cli import output
-        from gcs.export import ExportOptions
-        from gcs.export import export as write
-        from gcs.run_folder import RunFolder
+        from gcs.cli.progress import working
+
+        with working("Loading", brief=True):
+            from gcs.export import ExportOptions
+            from gcs.export import export as write
+            from gcs.run_folder import RunFolder
 
         scenario, plan = RunFolder(run).read()
         choice = [autopilot.value] * (autopilot is not Autopilot.ardupilot)
         choice += [frame.value] * (frame is not AltitudeFrame.amsl) + ["landing"] * landing
         folder = out or run / "missions" / "-".join(choice)
         folder.mkdir(parents=True, exist_ok=True)
-        exported = write(scenario, plan, ExportOptions(file_format.value, autopilot, frame, landing), folder)
+        with working("Writing files", brief=True):
+            exported = write(scenario, plan, ExportOptions(file_format.value, autopilot, frame, landing), folder)
+        if json:
+            output.print_json({"files": [str(path) for path in exported.files], "notes": list(exported.notes)})
+            return
         for path in exported.files:
-            output.out.print(str(path), soft_wrap=True)
+            output.out.print(str(path), markup=False, soft_wrap=True)
         for note in exported.notes:
-            output.progress.print(f"skein: {note}", soft_wrap=True)
+            output.progress.print(f"skein: {note}", markup=False, soft_wrap=True)

@@ -62,9 +62,12 @@ def fly(
     Example: skein fly runs/first --connect udpin://127.0.0.1:14550
     """
     with exit_codes():
-        from gcs.flight import FlightOptions
-        from gcs.run_folder import RunFolder
-        from missions.errors import InputError
+        from gcs.cli.progress import working
+
+        with working("Loading simulation", brief=True):
+            from gcs.flight import FlightOptions
+            from gcs.run_folder import RunFolder
+            from missions.errors import InputError
 
         folder = RunFolder(run)
         scenario, plan = folder.read()
@@ -88,18 +91,22 @@ def fly_and_report(
     """Fly with a live table on standard error, write metrics and figures, print the report; exit with 1 if something
     fell short."""
     import asyncio
+    import logging
 
     from gcs.cli import output
     from gcs.cli.flight_report import show_report, warn_of_delay
     from gcs.cli.live import LiveTable
+    from gcs.cli.progress import working
     from gcs.flight import fly as fly_plan
     from gcs.report import write_report
 
     warn_of_delay(scenario, options.delay_s, options.arm)
+    logging.getLogger(__name__).info("%s: seed %d, %s", run.path, plan.seed, options)
     with LiveTable(output.progress) as live:
         record = asyncio.run(fly_plan(scenario, plan, run, options, live.announce, live.show))
-    output.progress.print("Computing figures of merit, drawing")
-    show_report(write_report(run, scenario, plan, record), run, json)
+    with working("Computing figures of merit, drawing"):
+        report = write_report(run, scenario, plan, record)
+    show_report(report, run, json)
 
 
 def fly_connected_and_report(

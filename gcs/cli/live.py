@@ -1,12 +1,14 @@
-"""The live table of a flight, on standard error: what each vehicle does, and how far it has come."""
+"""The live table of a flight, on standard error: what each vehicle does, how far it has come, and the time left."""
 
 from types import TracebackType
 
-from rich.console import Console
+from rich.console import Console, Group
 from rich.live import Live
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
 from rich.progress_bar import ProgressBar
 from rich.table import Table
 
+from gcs.cli.progress import BAR_WIDTH, TimeLeft
 from gcs.watch import VehicleStatus
 
 REFRESHES_PER_S = 8
@@ -22,6 +24,9 @@ class LiveTable:
     def __init__(self, console: Console) -> None:
         self._console = console
         self._live = Live(console=console, refresh_per_second=REFRESHES_PER_S, transient=True)
+        columns = (TextColumn("{task.description}"), BarColumn(BAR_WIDTH), TaskProgressColumn(), TimeLeft())
+        self._whole = Progress(*columns, console=console)
+        self._flight = self._whole.add_task("Flying", total=None, start=False)
 
     def announce(self, step: str) -> None:
         """A step of the flight begins."""
@@ -30,7 +35,15 @@ class LiveTable:
     def show(self, statuses: list[VehicleStatus]) -> None:
         """Renew the table."""
         if self._console.is_terminal:
-            self._live.update(_table(statuses))
+            self._tell_whole(statuses)
+            self._live.update(Group(_table(statuses), self._whole))
+
+    def _tell_whole(self, statuses: list[VehicleStatus]) -> None:
+        """How far the flight is: in simulated time, until the last of those that fly is to arrive."""
+        if not self._whole.tasks[0].started:
+            self._whole.start_task(self._flight)
+        ends_s = max((status.planned_arrival_s for status in statuses if status.lost is None), default=0.0)
+        self._whole.update(self._flight, total=ends_s, completed=max(status.time_s for status in statuses))
 
     def __enter__(self) -> "LiveTable":
         self._live.start()

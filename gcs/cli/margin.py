@@ -1,15 +1,12 @@
 """`skein margin`: how late corrections may come."""
 
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption, ScenarioArgument, finite
-
-if TYPE_CHECKING:
-    pass
 
 
 class Graph(StrEnum):
@@ -71,10 +68,13 @@ def margin(
     Example: skein margin --linear --graph complete --k1 0.2 --k2 1 --k3 1
     """
     with exit_codes():
-        from gcs.cli import output
-        from gcs.cli.margin_tables import gains_table, limiting_line, margin_table, title_line
-        from gcs.margin import MarginStudy
-        from missions.scenario import load_scenario
+        from gcs.cli.progress import working
+
+        with working("Loading", brief=True):
+            from gcs.cli import output
+            from gcs.cli.margin_tables import gains_table, limiting_line, margin_table, title_line
+            from gcs.margin import MarginStudy
+            from missions.scenario import load_scenario
 
         loaded = load_scenario(scenario)
         own = [vehicle.sysid for vehicle in loaded.vehicles]
@@ -87,7 +87,8 @@ def margin(
         if pinned is not None:
             model = model.model_copy(update={"pinned": chosen_pins(pinned, sysids)})
         delay_s = model.delay_s if suggest is None else suggest
-        figures = MarginStudy(model, sysids, loaded.airframe.airframe(), delay_s, bare=linear).figures()
+        with working("Computing margins", brief=True):
+            figures = MarginStudy(model, sysids, loaded.airframe.airframe(), delay_s, bare=linear).figures()
         if json:
             output.print_json({"scenario": loaded.name, **figures})
             return

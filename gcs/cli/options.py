@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gcs.cli import completion
+
 if TYPE_CHECKING:
     from sitl.config import Arm
 
@@ -22,9 +24,13 @@ ScenarioArgument = Annotated[
     typer.Argument(
         metavar="[SCENARIO|FILE]",
         help="A scenario that ships (crossing, mountains, radars, ridge, vee) or a TOML file.",
+        autocompletion=completion.scenarios,
     ),
 ]
-RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run, as made by `skein plan`.")]
+RunArgument = Annotated[
+    Path,
+    typer.Argument(metavar="RUN", help="Folder of a run, as made by `skein plan`.", autocompletion=completion.runs),
+]
 OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="New folder for the run.")]
 SeedOption = Annotated[
     int | None, typer.Option("--seed", min=0, max=2**63 - 1, metavar="N", help="Seed of search and gusts.")

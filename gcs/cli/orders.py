@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gcs.cli.completion import modes
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption
 from gcs.cli.station import (
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
     from sitl.modes import Mode
 
 ForceOption = Annotated[bool, typer.Option("--force", help="Whatever the vehicle's checks say.")]
-ModeArgument = Annotated[str, typer.Argument(metavar="MODE", help="AUTO, LOITER, RTL, GUIDED, TAKEOFF or MANUAL.")]
+ModeArgument = Annotated[
+    str, typer.Argument(metavar="MODE", autocompletion=modes, help="AUTO, LOITER, RTL, GUIDED, TAKEOFF or MANUAL.")
+]
 
 
 def arm(

@@ -24,5 +24,5 @@ def print_json(values: Any) -> None:
 
 
 def print_json_line(values: Any) -> None:
-    """The same on a single line, for what is too long to read."""
-    print(json.dumps(values, allow_nan=False))
+    """The same on a single line, for what is too long to read, or is read while the command goes on."""
+    print(json.dumps(values, allow_nan=False), flush=True)

@@ -17,11 +17,12 @@ from gcs.cli.station import (
     for_vehicles,
     require_one,
 )
+from gcs.cli.verbosity import Commands
 
 if TYPE_CHECKING:
     from gcs.vehicle_link import VehicleLink
 
-params = typer.Typer(name="params", help="Read, change, save and load parameters.", no_args_is_help=True)
+params = Commands(name="params", help="Read, change, save and load parameters.", no_args_is_help=True)
 
 NameArgument = Annotated[str, typer.Argument(metavar="NAME", help="Such as WP_LOITER_RAD.")]
 ValueArgument = Annotated[float, typer.Argument(metavar="VALUE")]

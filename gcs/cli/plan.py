@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gcs.cli.completion import methods
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption, OutOption, ScenarioArgument, SeedOption
 
@@ -14,7 +15,10 @@ if TYPE_CHECKING:
     from planner.formation_plan import FormationPlan
 
 MethodOption = Annotated[
-    str | None, typer.Option("--method", metavar="M", help="Search: skein, pso, qpso, hybrid or published.")
+    str | None,
+    typer.Option(
+        "--method", metavar="M", help="Search: skein, pso, qpso, hybrid or published.", autocompletion=methods
+    ),
 ]
 FiguresOption = Annotated[
     bool, typer.Option("--figures", help="Draw the plan into the run's figures/: the scene, maps, heights.")
@@ -34,14 +38,18 @@ def plan(
     Example: skein plan radars --out runs/first
     """
     with exit_codes():
-        from gcs.cli import output
-        from gcs.cli.plan_json import plan_json
-        from gcs.cli.tables import plan_table, planned_table
-        from planner.verify import verify
+        from gcs.cli.progress import working
+
+        with working("Loading planner", brief=True):
+            from gcs.cli import output
+            from gcs.cli.plan_json import plan_json
+            from gcs.cli.tables import plan_table, planned_table
+            from planner.verify import verify
 
         run, loaded, result = plan_run(scenario, out, seed, method)
         if figures:
-            _draw(run, loaded, result)
+            with working("Drawing"):
+                _draw(run, loaded, result)
         if json:
             output.print_json({"run": str(run.path), **plan_json(result, loaded)})
             return

@@ -1,32 +1,35 @@
 """Planning with a progress bar on standard error, and plans made before."""
 
+import logging
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-from gcs.cli import output
+from gcs.cli.progress import working
 from gcs.run_folder import RunFolder
+from missions.compiled import compiled_before
 from missions.scenario import Scenario, parse_scenario, read_scenario_text, scenario_folder, shipped_scenarios
 from planner.formation_plan import FormationPlan
 from planner.plan import PlanProgress
 from planner.plan import plan as search
 
+_log = logging.getLogger(__name__)
+
 
 def search_with_progress(scenario: Scenario, seed: int | None, method: str | None) -> FormationPlan:
     """Plan a scenario. Raises InputError as the planner does."""
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn(), TextColumn("{task.fields[best]}"))
-    with Progress(*columns, console=output.progress, transient=True) as bar:
-        task = bar.add_task(f"Planning {scenario.name}", total=len(scenario.vehicles), best="compiling")
-
-        parts = [0.0] * len(scenario.vehicles)
+    parts = [0.0] * len(scenario.vehicles)
+    first = "" if compiled_before("cost") else ", after compiling: once, some 20 s"
+    with working(f"Planning {scenario.name}{first}") as bar:
 
         def show(progress: PlanProgress) -> None:
             parts[progress.uav] = progress.part
             best = "no way yet" if progress.best_km is None else f"f = {progress.best_km:.2f} km"
-            bar.update(task, completed=sum(parts), description=f"Planning {progress.name}", best=best)
+            bar.show(sum(parts), len(parts), f"Planning {progress.name}", best)
 
-        return search(scenario, seed=seed, method=method, progress=show)
+        plan = search(scenario, seed=seed, method=method, progress=show)
+    figures = (plan.scenario, plan.method, plan.seed, plan.compile_s, plan.plan_s)
+    _log.info("%s planned by %s, seed %d: compiled in %.3f s, searched in %.3f s", *figures)
+    return plan
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gcs.cli.completion import sources
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption, NoCorrectionsOption, NoNeighboursOption, OutOption, chosen_arm
 from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
 SourceArgument = Annotated[
     str,
     typer.Argument(
-        metavar="[SCENARIO|FILE|RUN]", help="A scenario that ships, a TOML file, or the folder of a planned run."
+        metavar="[SCENARIO|FILE|RUN]",
+        help="A scenario that ships, a TOML file, or the folder of a planned run.",
+        autocompletion=sources,
     ),
 ]
 SeedOption = Annotated[
@@ -74,7 +77,11 @@ def rehearse(
     Example: skein rehearse vee --runs 100 --delay 0.2,0.4 --vary arm=full,own_schedule --out runs/delays
     """
     with exit_codes():
+        from gcs.cli.progress import working
         from missions.errors import InputError
+
+        with working("Loading planner and simulation", brief=True):
+            import gcs.rehearsal  # noqa: F401 (takes seconds)
 
         axes = wanted_axes(campaign, vary, delay, chosen_arm(no_corrections, no_neighbours))
         if runs is not None or campaign is not None or vary or any(len(values) > 1 for values in axes.values()):
@@ -142,11 +149,14 @@ def rehearse_once(
 ) -> None:
     """Rehearse, keep truth, metrics and figures if there is a folder for them, print the report; exit with 1 if
     something fell short."""
+    import logging
+
     from gcs.campaign.axes import ARM, DELAY, make_axes
-    from gcs.cli import output
+    from gcs.cli.compiling import compile_with_progress
     from gcs.cli.flight_report import show_report, warn_of_delay
     from gcs.cli.planning import plan_for, read_source
-    from gcs.rehearsal import RehearsalOptions, compile_rehearsal, rehearse_plan
+    from gcs.cli.progress import working
+    from gcs.rehearsal import RehearsalOptions, rehearse_plan
     from gcs.report import keep_report, report_on
     from gcs.run_folder import make_run_folder
     from gcs.truth import write_shifts, write_truths
@@ -163,15 +173,17 @@ def rehearse_once(
         arm=chosen.get(ARM, "full"),
     )
     warn_of_delay(scenario, options.delay_s, options.arm)
+    logging.getLogger(__name__).info("%s: %s", scenario.name, options)
     require(verify(plan, scenario))
-    with output.progress.status("Compiling the rehearsal, which takes some 20 s the first time"):
-        compile_s = compile_rehearsal(scenario, plan)
-    truths, record = rehearse_plan(scenario, plan, options, compile_s)
-    report = report_on(scenario, plan, truths, record)
-    if run is not None:
-        run.write_plan(given.text, scenario, plan)
-        run.begin_flight()
-        write_truths(truths, run.truth)
-        write_shifts(record.shifts, run.truth)
-        keep_report(run, scenario, plan, truths, report)
+    compile_s = compile_with_progress(scenario, plan)
+    with working(f"Rehearsing {scenario.name}", brief=True):
+        truths, record = rehearse_plan(scenario, plan, options, compile_s)
+    with working("Computing figures of merit" + ", drawing" * (run is not None), brief=True):
+        report = report_on(scenario, plan, truths, record)
+        if run is not None:
+            run.write_plan(given.text, scenario, plan)
+            run.begin_flight()
+            write_truths(truths, run.truth)
+            write_shifts(record.shifts, run.truth)
+            keep_report(run, scenario, plan, truths, report)
     show_report(report, run, json)

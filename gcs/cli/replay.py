@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import finite
+from gcs.cli.options import JsonOption, finite
 
 FilesArgument = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Telemetry logs, one a vehicle or more.")]
 ToOption = Annotated[
@@ -18,7 +18,9 @@ PaceOption = Annotated[
 ]
 
 
-def replay(files: FilesArgument, to: ToOption = "udpout://127.0.0.1:14550", speed: PaceOption = 1.0) -> None:
+def replay(
+    files: FilesArgument, to: ToOption = "udpout://127.0.0.1:14550", speed: PaceOption = 1.0, json: JsonOption = False
+) -> None:
     """Play telemetry logs back to any ground station.
 
     With the pace of their stamps.
@@ -29,19 +31,26 @@ def replay(files: FilesArgument, to: ToOption = "udpout://127.0.0.1:14550", spee
         import asyncio
 
         from gcs.cli import output
+        from gcs.cli.progress import working
         from gcs.links.open_link import open_link
         from gcs.replay import read_replay
         from gcs.replay import replay as play
 
-        messages = read_replay(files)
+        with working("Reading", brief=True):
+            messages = read_replay(files)
         lasts_s = messages[-1].time_s - messages[0].time_s
 
         async def main() -> int:
             link = await open_link(to)
             output.progress.print(f"Playing {lasts_s:.0f} s of {len(messages)} frames to {to}; Ctrl-C ends it")
             try:
-                return await play(messages, link, speed)
+                with working("Playing", brief=True) as bar:
+                    return await play(messages, link, speed, told=lambda played_s: bar.show(played_s, lasts_s))
             finally:
                 await link.close()
 
-        output.out.print(f"{asyncio.run(main())} frames sent")
+        frames = asyncio.run(main())
+        if json:
+            output.print_json({"frames": frames, "logged_s": lasts_s})
+        else:
+            output.out.print(f"{frames} frames sent")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import RunArgument
+from gcs.cli.options import JsonOption, RunArgument
 from gcs.cli.workers import JobsOption
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ def report(
     out: PageOption = None,
     no_delays: NoDelaysOption = False,
     jobs: JobsOption = None,
+    json: JsonOption = False,
 ) -> None:
     """Write a flown run as one HTML page that needs no network.
 
@@ -38,29 +39,32 @@ def report(
     Example: skein report runs/first
     """
     with exit_codes():
-        from gcs.cli import output
-        from gcs.report_page import read_flown_run, write_page
+        from gcs.cli.progress import working
 
-        runs = [read_flown_run(path) for path in (run, compare) if path is not None]
+        with working("Loading", brief=True):
+            from gcs.cli import output
+            from gcs.report_page import read_flown_run, write_page
+
+            runs = [read_flown_run(path) for path in (run, compare) if path is not None]
         curves = _curves(runs, jobs) if not no_delays else [[] for _ in runs]
         file = out or run / "report.html"
-        write_page(list(zip(runs, curves, strict=True)), file)
-        output.out.print(f"Report: {file}", soft_wrap=True)
+        with working("Drawing", brief=True):
+            write_page(list(zip(runs, curves, strict=True)), file)
+        if json:
+            output.print_json({"report": str(file)})
+        else:
+            output.out.print(f"Report: {file}", markup=False, soft_wrap=True)
 
 
 def _curves(runs: "list[FlownRun]", jobs: int | None) -> "list[list[DelayPoint]]":
     """Rehearse each run at other delays."""
-    from rich.progress import Progress
-
-    from gcs.cli import output
+    from gcs.cli.progress import working
     from gcs.cli.workers import chosen_workers
     from gcs.report_page.delays import delay_curve, delay_trials_of
 
     trials = [delay_trials_of(run) for run in runs]
     workers = chosen_workers(jobs, None)
-    with Progress(console=output.progress, transient=True) as progress:
-        task = progress.add_task("Rehearsing at other delays", total=sum(map(len, trials)))
+    with working("Rehearsing at other delays", count=sum(map(len, trials))) as bar:
         return [
-            delay_curve(run, some, workers, lambda: progress.advance(task)) if some else []
-            for run, some in zip(runs, trials, strict=True)
+            delay_curve(run, some, workers, bar.advance) if some else [] for run, some in zip(runs, trials, strict=True)
         ]

@@ -46,12 +46,15 @@ def reproduce(
     Example: skein reproduce --seeds 2 --out quick
     """
     with exit_codes():
-        from gcs.cli import output
-        from gcs.cli.reproduction_tables import distance_table, method_table
-        from gcs.figures.paper import draw_paper
-        from gcs.reproduction import summary
-        from gcs.run_folder import make_run_folder
-        from missions.scenario import load_scenario
+        from gcs.cli.progress import working
+
+        with working("Loading planner and simulation", brief=True):
+            from gcs.cli import output
+            from gcs.cli.reproduction_tables import distance_table, method_table
+            from gcs.figures.paper import draw_paper
+            from gcs.reproduction import summary
+            from gcs.run_folder import make_run_folder
+            from missions.scenario import load_scenario
 
         folder = make_run_folder(out, "reproduction")
         results: list[dict[str, Any]] = []
@@ -59,7 +62,8 @@ def reproduce(
             scenario = _cut_down(load_scenario(name), iterations, count)
             first = scenario.seed if seed is None else seed
             reproduced = _reproduced(scenario, range(first, first + seeds), flights=not no_flights)
-            files = draw_paper(reproduced, folder.path)
+            with working(f"Drawing {name}"):
+                files = draw_paper(reproduced, folder.path)
             results.append(summary(reproduced) | {"figures": [file.name for file in files]})
             if not json:
                 output.out.print(distance_table(results[-1]))
@@ -78,16 +82,14 @@ def _cut_down(scenario: "Scenario", iterations: int | None, count: int | None) -
 
 def _reproduced(scenario: "Scenario", seeds: range, *, flights: bool) -> "Reproduced":
     """Plan, fly and compare, with progress on standard error."""
-    from rich.progress import Progress
-
     from gcs.cli import output
     from gcs.cli.planning import search_with_progress
+    from gcs.cli.progress import working
     from gcs.reproduction import Reproduced, fly_for_the_record
     from planner.reproduction import study
 
     hybrid, skein = (search_with_progress(scenario, seeds[0], method) for method in ("hybrid", "skein"))
     flown = fly_for_the_record(scenario, hybrid, output.progress.print) if flights else None
-    with Progress(console=output.progress, transient=True) as bar:
-        task = bar.add_task(f"Comparing methods on {scenario.name}", total=1.0)
-        compared = study(scenario, seeds, lambda part: bar.update(task, completed=part))
+    with working(f"Comparing methods on {scenario.name}") as bar:
+        compared = study(scenario, seeds, lambda part: bar.show(part, 1.0))
     return Reproduced(scenario, hybrid, skein, flown, compared)

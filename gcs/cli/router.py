@@ -6,11 +6,12 @@ from typing import Annotated
 import typer
 
 from gcs.cli.errors import exit_codes
+from gcs.cli.options import JsonOption
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="How the swarm meets; see docs/real-time.md.")]
 
 
-def router(file: FileArgument) -> None:
+def router(file: FileArgument, json: JsonOption = False) -> None:
     """Run the router of a swarm on several machines, until Ctrl-C. With certificates, each vehicle speaks for itself
     alone, and strangers neither hear nor are heard.
 
@@ -25,5 +26,8 @@ def router(file: FileArgument) -> None:
 
         network = read_zenoh_file(file)
         with open_session(network.server(), real_time=True):
-            output.out.print(f"Router of {network.swarm} at {network.router}; Ctrl-C ends it.")
+            if json:
+                output.print_json_line({"swarm": network.swarm, "router": network.router})
+            else:
+                output.out.print(f"Router of {network.swarm} at {network.router}; Ctrl-C ends it.")
             threading.Event().wait()

@@ -16,13 +16,12 @@ from gcs.cli.station import (
     WaitOption,
     for_vehicles,
 )
+from gcs.cli.verbosity import Commands
 
 if TYPE_CHECKING:
     from gcs.vehicle_link import VehicleLink
 
-signing = typer.Typer(
-    name="signing", help="Make a signing key, give it to vehicles, take it away.", no_args_is_help=True
-)
+signing = Commands(name="signing", help="Make a signing key, give it to vehicles, take it away.", no_args_is_help=True)
 
 NewFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="To be made; one that is there stays as it is.")]
 FileArgument = Annotated[
@@ -35,7 +34,7 @@ OverNetworkOption = Annotated[
 
 
 @signing.command("new")
-def new(file: NewFileArgument) -> None:
+def new(file: NewFileArgument, json: JsonOption = False) -> None:
     """Make a random key, in a file that nobody else can read.
 
     Example: skein signing new swarm.key
@@ -45,7 +44,10 @@ def new(file: NewFileArgument) -> None:
         from gcs.signing_key import make_signing_key
 
         make_signing_key(file)
-        output.out.print(f"{file}: a new key; keep a copy, for vehicles hear nobody without it", markup=False)
+        if json:
+            output.print_json({"file": str(file)})
+        else:
+            output.out.print(f"{file}: a new key; keep a copy, for vehicles hear nobody without it", markup=False)
 
 
 @signing.command("set")

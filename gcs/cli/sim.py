@@ -1,12 +1,13 @@
 """`skein sim`: a swarm of simulated vehicles for any ground station."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.options import (
+    JsonOption,
     NoCorrectionsOption,
     NoNeighboursOption,
     RealTimeOption,
@@ -18,6 +19,10 @@ from gcs.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rich.console import Console
+
     from sitl.swarm import Swarm
 
 WATCH_PERIOD_S = 0.5
@@ -117,6 +122,7 @@ def sim(
     signing_key: SigningKeyOption = None,
     zenoh: ZenohOption = None,
     vehicle: VehicleOption = None,
+    json: JsonOption = False,
 ) -> None:
     """Leave a swarm running for any ground station.
 
@@ -125,7 +131,10 @@ def sim(
     Example: skein sim vee --count 3
     """
     with exit_codes():
+        from contextlib import ExitStack
+
         from gcs.cli import output
+        from gcs.cli.progress import working
         from gcs.cli.station import chosen_sysids
         from gcs.cli.tables import endpoint_table, ways_to_connect
         from gcs.signing_key import read_signing_key
@@ -167,23 +176,49 @@ def sim(
                 output.progress.print("formation.reassign: a simulation knows no plan; all keep their own places")
             if first_port:
                 require_free_tcp(first_port, count or len(loaded.vehicles))
-            with Swarm(loaded, options) as swarm:
-                output.out.print(endpoint_table(loaded.name, swarm))
-                for line in ways_to_connect(swarm, stations, memory.path):
-                    output.out.print(line, soft_wrap=True)
+            with ExitStack() as stack:
+                with working(f"Launching {loaded.name}", brief=True):
+                    swarm = stack.enter_context(Swarm(loaded, options))
+                told = output.progress if json else output.out
+                if json:
+                    output.print_json_line(_as_json(loaded.name, swarm, stations, memory.path))
+                else:
+                    told.print(endpoint_table(loaded.name, swarm))
+                    for line in ways_to_connect(swarm, stations, memory.path):
+                        told.print(line, soft_wrap=True)
                 # Of several machines, one starts the clocks: where Enter is pressed, or the first vehicle runs.
-                if _enter_pressed() if held else real_time and swarm.sysids[0] in swarm.endpoints:
+                if _enter_pressed(told) if held else real_time and swarm.sysids[0] in swarm.endpoints:
                     _release(swarm)
-                output.out.print("Ctrl-C ends the simulation.")
+                told.print("Ctrl-C ends the simulation.")
                 _watch(swarm)
         raise SystemExit(FELL_SHORT)
 
 
-def _enter_pressed() -> bool:
-    """Wait for Enter; without a keyboard it is never pressed."""
-    from gcs.cli import output
+def _as_json(name: str, swarm: "Swarm", stations: "Sequence[tuple[str, int]]", state: Path) -> dict[str, Any]:
+    """Where everybody can be reached."""
+    from sitl.services.links import LOOPBACK
 
-    output.out.print("The clock is held; Enter releases it.")
+    return {
+        "scenario": name,
+        "vehicles": [
+            {
+                "sysid": endpoint.sysid,
+                "name": endpoint.name,
+                "tcp": f"{LOOPBACK}:{endpoint.ready.tcp_port}",
+                "udp": f"{LOOPBACK}:{endpoint.ready.udp_port}",
+                "pid": endpoint.process.pid,
+            }
+            for endpoint in swarm.endpoints.values()
+            if endpoint.ready is not None
+        ],
+        "telemetry_to": [f"{host}:{port}" for host, port in stations],
+        "state": str(state),
+    }
+
+
+def _enter_pressed(told: "Console") -> bool:
+    """Wait for Enter; without a keyboard it is never pressed."""
+    told.print("The clock is held; Enter releases it.")
     try:
         input()
     except EOFError:

@@ -125,6 +125,7 @@ async def results_of(
 ) -> dict[int, Any]:
     """What came of some work with each vehicle, by system id: a result, or an error in its place. See for_vehicles."""
     from gcs.cli import output
+    from gcs.cli.progress import working
     from gcs.fleet import Fleet
     from gcs.links.open_link import open_link
     from gcs.station_logs import station_logs
@@ -135,18 +136,28 @@ async def results_of(
         for url in options.connect or [DEFAULT_URL]:
             fleet.attach(await open_link(url))
         if sysids is None:
-            sysids = [one.sysid for one in await fleet.discover(options.wait_s or HEARD_WAIT_S)]
+            with working("Listening for vehicles", brief=True):
+                sysids = [one.sysid for one in await fleet.discover(options.wait_s or HEARD_WAIT_S)]
         patience_s = options.wait_s or NAMED_WAIT_S
-        if whoever:
-            results = await _with_whoever_is_there(fleet, sysids, patience_s, work)
-        else:
-            vehicles = await fleet.wait_for(sysids, patience_s)
-            await fleet.hear_out()
-            fleet.check()
-            if check is not None:
-                check(vehicles)
-            results = await for_all(vehicles, work)
-            fleet.check()
+        with working("Waiting for vehicles", count=len(sysids), brief=True) as bar:
+
+            async def shown(one: "VehicleLink") -> Any:
+                try:
+                    return await work(one)
+                finally:
+                    bar.advance("Vehicles done")
+
+            if whoever:
+                results = await _with_whoever_is_there(fleet, sysids, patience_s, shown)
+            else:
+                vehicles = await fleet.wait_for(sysids, patience_s)
+                await fleet.hear_out()
+                fleet.check()
+                if check is not None:
+                    check(vehicles)
+                bar.show(0, len(sysids), "Vehicles done")
+                results = await for_all(vehicles, shown)
+                fleet.check()
         for line in fleet.complaints():
             output.progress.print(line, soft_wrap=True)
         if options.signing_key is None:

@@ -5,16 +5,23 @@ from typing import Annotated
 
 import typer
 
+from gcs.cli.completion import sources
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import JsonOption
+from gcs.cli.verbosity import Commands
 from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
 
 SEEDS, QUICK_SEEDS = 20, 3
 
-study = typer.Typer(name="study", help="Study the formation law over many flights.", no_args_is_help=True)
+study = Commands(name="study", help="Study the formation law over many flights.", no_args_is_help=True)
 
 SourceArgument = Annotated[
-    str, typer.Argument(metavar="[SCENARIO|FILE|RUN]", help="A scenario that ships, a TOML file, or a planned run.")
+    str,
+    typer.Argument(
+        metavar="[SCENARIO|FILE|RUN]",
+        help="A scenario that ships, a TOML file, or a planned run.",
+        autocompletion=sources,
+    ),
 ]
 SeedsOption = Annotated[
     int | None, typer.Option("--seeds", min=2, metavar="N", help=f"Flights a point; {SEEDS} unless given.")
@@ -47,18 +54,19 @@ def delay(
     Example: skein study delay vee --quick --out runs/delay
     """
     with exit_codes():
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+        from gcs.cli.progress import working
 
-        from gcs.cli import output
-        from gcs.cli.planning import plan_for, read_source
-        from gcs.cli.study_table import delay_table
-        from gcs.rehearsal import compile_rehearsal
-        from gcs.run_folder import make_run_folder
-        from gcs.study.delay import study_delay, trials_of
-        from gcs.study.delay_trials import QUICK_SHARES, SHARES
-        from gcs.study.graphs import parse_edges, studied_graphs
-        from gcs.study.trial import Trial
-        from planner.verify import require, verify
+        with working("Loading planner and simulation", brief=True):
+            from gcs.cli import output
+            from gcs.cli.compiling import compile_with_progress
+            from gcs.cli.planning import plan_for, read_source
+            from gcs.cli.study_table import delay_table
+            from gcs.run_folder import make_run_folder
+            from gcs.study.delay import study_delay, trials_of
+            from gcs.study.delay_trials import QUICK_SHARES, SHARES
+            from gcs.study.graphs import parse_edges, studied_graphs
+            from gcs.study.trial import Trial
+            from planner.verify import require, verify
 
         given = read_source(source)
         scenario = given.scenario
@@ -70,16 +78,15 @@ def delay(
         first = scenario.seed
         flown = range(first, first + (seeds or (QUICK_SEEDS if quick else SEEDS)))
         trials = trials_of(scenario, graphs, QUICK_SHARES if quick else SHARES, flown)
-        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-        with Progress(*columns, console=output.progress, transient=True) as bar:
-            task = bar.add_task("Compiling", total=sum(map(len, trials.values())))
-            compile_rehearsal(scenario, plan)
+        compile_with_progress(scenario, plan)
+        with working(f"Rehearsing {scenario.name}", count=sum(map(len, trials.values()))) as bar:
 
             def told(trial: Trial) -> None:
-                bar.update(task, advance=1, description=f"Rehearsing {scenario.name}")
+                bar.advance()
 
             found = study_delay(scenario, plan, graphs, trials, workers, told)
-        files = found.write(run.path)
+        with working("Drawing"):
+            files = found.write(run.path)
         if json:
             output.print_json({"study": str(run.path), **found.as_json()})
         else:

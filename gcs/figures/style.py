@@ -1,5 +1,6 @@
 """The house style of all pictures: one page, one set of colours, kilometres and seconds on the axes."""
 
+import logging
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -13,6 +14,8 @@ from matplotlib.patches import Patch
 
 from missions.environment import Environment
 from missions.scenario import Scenario
+
+_log = logging.getLogger(__name__)
 
 WIDTH_IN = 10.0
 DPI = 150
@@ -81,6 +84,7 @@ def page(
         figure = Figure(figsize=(WIDTH_IN, height_in), layout=layout)
         yield figure
         figure.savefig(path, dpi=DPI)
+        _log.info("%s drawn", path)
 
 
 def headline(figure: Figure, text: str) -> None:

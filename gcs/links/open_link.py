@@ -1,5 +1,6 @@
 """Links by URL, in the manner of MAVSDK and pymavlink."""
 
+import logging
 import re
 from urllib.parse import SplitResult, urlsplit
 
@@ -9,6 +10,8 @@ from gcs.links.tcp import TcpLink
 from gcs.links.tcp_server import TcpServerLink
 from gcs.links.udp import UdpLink
 from missions.errors import InputError
+
+_log = logging.getLogger(__name__)
 
 DEFAULT_URL = "udpin://127.0.0.1:14550"
 LOOPBACK = "127.0.0.1"
@@ -28,6 +31,7 @@ async def open_link(url: str) -> Link:
     Raises:
         InputError: the URL is none of those accepted, or the link cannot be had.
     """
+    _log.info("%s: opening", url)
     if url.startswith("serial:"):
         found = _SERIAL.fullmatch(url)
         if found is None:

@@ -1,10 +1,8 @@
 """The page itself: what it says of one run, or of two side by side."""
 
-import platform
 import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -18,10 +16,9 @@ from gcs.report_page.delays import DelayPoint
 from gcs.report_page.flown_run import FlownRun
 from gcs.report_page.pictures import Picture, pictures, scene_png
 from gcs.report_page.scene import scene_html
+from gcs.versions import versions
 from missions.errors import InputError
 
-PACKAGES = ("skein-gcs", "numpy", "scipy", "numba", "pymavlink", "eclipse-zenoh")
-"""Whose versions a flight may depend on."""
 NONE = "-"
 
 
@@ -73,7 +70,7 @@ def write_page(runs: Sequence[tuple[FlownRun, Sequence[DelayPoint]]], file: Path
         views=views,
         title=" and ".join(dict.fromkeys(view.run.scenario.name for view in views)),
         plotly=get_plotlyjs(),
-        versions=[(name, version(name)) for name in PACKAGES] + [("Python", platform.python_version())],
+        versions=list(versions().items()),
         dash=NONE,
     )
     unfinished = file.with_name(f".{file.name}.part")

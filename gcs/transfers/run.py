@@ -1,6 +1,7 @@
 """Driving transfers over a vehicle's link, in asyncio."""
 
 import asyncio
+import logging
 from collections.abc import Callable
 from typing import TypeAlias, TypeVar
 
@@ -9,6 +10,8 @@ from gcs.transfers.errors import TransferError
 from gcs.transfers.transfer import Transfer
 from gcs.vehicle_link import VehicleLink
 from sitl.services.peer import Message
+
+_log = logging.getLogger(__name__)
 
 Result = TypeVar("Result")
 Make: TypeAlias = Callable[[int, int, Callable[[Message], None], Callable[[], float], Acquaintance], Transfer[Result]]
@@ -27,6 +30,8 @@ async def run(vehicle: VehicleLink, make: "Make[Result]") -> Result:
     said = len(vehicle.texts)
     transfer = make(vehicle.sysid, vehicle.compid, vehicle.send, loop.time, vehicle.known)
     over = loop.create_future()
+    began_s = loop.time()
+    _log.debug("%s: %s begins", vehicle, type(transfer).__name__)
     timer: asyncio.TimerHandle
 
     def fail(error: Exception) -> None:
@@ -72,6 +77,8 @@ async def run(vehicle: VehicleLink, make: "Make[Result]") -> Result:
         raise
     finally:
         timer.cancel()
+    came = "failed" if isinstance(transfer.outcome, TransferError) else "done"
+    _log.info("%s: %s %s, %.3f s", vehicle, type(transfer).__name__, came, loop.time() - began_s)
     if isinstance(transfer.outcome, TransferError):
         words = "; ".join(dict.fromkeys(vehicle.texts[said:]))
         raise TransferError(f"{transfer.outcome}; it says: {words}") if words else transfer.outcome

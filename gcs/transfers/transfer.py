@@ -1,5 +1,6 @@
 """What all transfers have in common: messages that want an answer, repeated until it comes or there is no hope."""
 
+import logging
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import ClassVar, Generic, TypeVar
@@ -9,6 +10,8 @@ from gcs.transfers.acquaintance import Acquaintance
 from gcs.transfers.errors import TransferError
 from sitl.services.peer import Message
 from sitl.services.round_trip import TRIES
+
+_log = logging.getLogger(__name__)
 
 Result = TypeVar("Result")
 
@@ -93,6 +96,7 @@ class Transfer(ABC, Generic[Result]):
             self.outcome = self._give_up()
             return
         self._tries += 1
+        _log.info("vehicle %d: %s: no answer in time, try %d", self._target[0], type(self).__name__, self._tries + 1)
         self._repeat()
 
     def _repeat(self) -> None:

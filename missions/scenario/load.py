@@ -1,6 +1,7 @@
 """Reading scenarios: by name from those that ship, or from a TOML file."""
 
 import difflib
+import logging
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -12,6 +13,8 @@ from pydantic_core import ErrorDetails
 from missions.errors import InputError
 from missions.scenario.check import problems
 from missions.scenario.model import Files, Scenario
+
+_log = logging.getLogger(__name__)
 
 _REASONS = {
     "missing": "is missing",
@@ -61,7 +64,7 @@ def read_scenario_text(name_or_file: str) -> tuple[str, str]:
         return (resources.files("missions") / "scenarios" / label).read_text(encoding="utf-8"), label
     path = Path(name_or_file)
     try:
-        return path.read_text(encoding="utf-8-sig"), path.name
+        text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(f"{path}: not UTF-8 text; a scenario is a TOML file") from None
     except FileNotFoundError:
@@ -69,6 +72,8 @@ def read_scenario_text(name_or_file: str) -> tuple[str, str]:
         raise InputError(f"{path}: no such file, nor a scenario that ships ({shipped})") from None
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}") from None
+    _log.info("%s: read", path)
+    return text, path.name
 
 
 def parse_scenario(text: str, label: str, folder: Path = Path(), raster: Path | None = None) -> Scenario:

@@ -1,7 +1,7 @@
 """How planning time grows with the number of UAVs: fields of many that fly side by side through the same threats."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -71,8 +71,8 @@ def _moved(thing: RadarModel | ObstacleModel, north_m: float) -> dict[str, Any]:
     return thing.model_dump() | {"y_m": thing.y_m + north_m}
 
 
-def measure_growth(numbers: Sequence[int]) -> list[Growth]:
-    """Plan a field of each number of UAVs."""
+def measure_growth(numbers: Sequence[int], told: Callable[[], None]) -> list[Growth]:
+    """Plan a field of each number of UAVs, telling of each."""
     found = []
     plan(field(2))  # compiled, and cached
     for uavs in numbers:
@@ -81,6 +81,7 @@ def measure_growth(numbers: Sequence[int]) -> list[Growth]:
         made = plan(scenario)
         spent_s = time.process_time() - cpu - made.compile_s
         found.append(Growth(uavs, spent_s, time.perf_counter() - start - made.compile_s))
+        told()
     return found
 
 

@@ -27,7 +27,9 @@ def test_more_uavs_than_a_formation_has_are_planned_and_verified() -> None:
 
 
 def test_measured_is_what_was_planned() -> None:
-    (growth,) = measure_growth([3])
+    told: list[None] = []
+    (growth,) = measure_growth([3], lambda: told.append(None))
+    assert len(told) == 1
     assert growth.uavs == 3
     assert growth.cpu_s > 0.0
 
