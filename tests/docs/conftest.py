@@ -3,7 +3,7 @@
 A fenced block of a page is
 
 - `sh`: commands, run by bash in one folder for the whole page;
-- `text`: lines that the commands before it print. Of each the words must be there, in their order; numbers may be others;
+- `text`: lines that the commands before it print. Of each the words must be there in their order, numbers may differ;
 - `python` or `toml` with a file's name in the comment before it: that file.
 
 The comment before a block says what a reader of the page can see, too: `file: NAME`, `exit code 1`, `another terminal`
