@@ -51,3 +51,12 @@ def test_blocks_that_are_not_run_say_why(pages: list[Path], blocks: Callable[[Pa
         for block in blocks(page):
             if block.mark.startswith("not run"):
                 assert re.fullmatch(r"not run: \w.+", block.mark), f"{page.name}: {block.mark}"
+
+
+def test_every_page_with_commands_to_run_is_followed(
+    pages: list[Path], blocks: Callable[[Path], list[Any]], root: Path
+) -> None:
+    tests = "".join(test.read_text(encoding="utf-8") for test in (root / "tests/docs").glob("test_*.py"))
+    for page in pages:
+        if any(block.kind == "sh" for block in blocks(page)):
+            assert f'follow(root / "{page.relative_to(root)}")' in tests, f"{page.name}: nobody runs its blocks"
