@@ -37,7 +37,7 @@ def test_neighbours_are_worth_a_good_third_of_what_is_left(rms_m: dict[Arm, floa
     assert rms_m["full"] <= 0.6 * rms_m["own_schedule"]
 
 
-def test_the_readme_quotes_these_figures(rms_m: dict[Arm, float]) -> None:
-    text = (Path(__file__).parents[2] / "README.md").read_text()
+def test_the_page_of_results_quotes_these_figures(rms_m: dict[Arm, float]) -> None:
+    text = (Path(__file__).parents[2] / "docs/results.md").read_text()
     quoted = [float(value) for value in re.findall(r"^\| .*(?:--no-\w+`\)|with neighbours) \| ([\d.]+) m", text, re.M)]
     assert quoted == pytest.approx([rms_m["plain"], rms_m["own_schedule"], rms_m["full"]], rel=0.02)
