@@ -11,7 +11,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from gcs.console.fleet_pilots import FleetPilots
 from gcs.console.helm import Helm
 from gcs.console.live import Live
-from gcs.console.page import Page
+from gcs.console.page import FEW, Page
 from gcs.console.place import Place, place_of, unknown_place
 from gcs.console.present import present
 from gcs.console.recording import Recording
@@ -138,7 +138,7 @@ async def watch_fleet(
         def also() -> None:
             new = [vehicle for sysid, vehicle in fleet.vehicles.items() if sysid not in asked]
             asked.update(vehicle.sysid for vehicle in new)
-            if new:
+            if new and len(asked) <= FEW:  # of many, the usual rate will do
                 tasks.append(asyncio.create_task(_ask_for_streams(new, STREAM_S)))
 
         try:

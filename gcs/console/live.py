@@ -7,13 +7,13 @@ from functools import partial
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import KDTree
 
 from gcs.console.moment import Course, Moment, Row, ShownLink
 from gcs.console.shown_time import ShownTime
 from gcs.console.telemetry import Telemetry
 from gcs.fleet import Fleet
 from gcs.flight_modes import mode_name
-from gcs.metrics.separation import least_separation_m
 from gcs.vehicle_link import SILENCE_S, VehicleLink
 from missions.frame import LocalFrame
 from missions.reference import Reference
@@ -170,7 +170,11 @@ class Live:
 
     def _separation_m(self) -> float:
         there = [i for i, sysid in enumerate(self._moment.sysids) if self._is_heard(sysid)]
-        return float(least_separation_m(self._moment.position_m[there, None])[0]) if len(there) > 1 else math.nan
+        if len(there) < 2:
+            return math.nan
+        places = self._moment.position_m[there]
+        distances, _ = KDTree(places).query(places, k=2)  # the first is its own
+        return float(np.asarray(distances)[:, 1].min())
 
     def _delay_s(self) -> float:
         known = [age for age in (self.ages_s or {}).values() if age is not None]

@@ -1,6 +1,7 @@
 """Where one vehicle has been, from what it has said of itself, and where it was in between."""
 
 import math
+from bisect import bisect_left, bisect_right
 from collections import deque
 from typing import NamedTuple
 
@@ -11,8 +12,10 @@ FloatArray = npt.NDArray[np.float64]
 
 KEPT = 8
 """Newest samples, to interpolate between."""
-TRAIL = 4000
-"""Places kept of its way."""
+TRAIL_STEP_S = 0.5
+"""Between two places that are kept of its way."""
+TRAIL = 8000
+"""So many are kept, and when there are twice as many the older half goes."""
 AHEAD_S = 2.0
 """So long a vehicle that says nothing is shown flying on."""
 
@@ -31,7 +34,8 @@ class Track:
 
     def __init__(self) -> None:
         self._newest: deque[Sample] = deque(maxlen=KEPT)
-        self._trail: deque[tuple[float, float, float, float]] = deque(maxlen=TRAIL)
+        self._times: list[float] = []
+        self._places: list[tuple[float, float, float]] = []
 
     @property
     def newest_s(self) -> float:
@@ -48,12 +52,18 @@ class Track:
         if sample.t_s <= self.newest_s:
             return
         self._newest.append(sample)
-        self._trail.append((sample.t_s, *sample.position_m))
+        if self._times and sample.t_s - self._times[-1] < TRAIL_STEP_S:
+            return
+        self._times.append(sample.t_s)
+        self._places.append(sample.position_m)
+        if len(self._times) >= 2 * TRAIL:
+            del self._times[:TRAIL], self._places[:TRAIL]
 
     def clear(self) -> None:
         """Forget all: its clock has begun anew."""
         self._newest.clear()
-        self._trail.clear()
+        self._times.clear()
+        self._places.clear()
 
     def at(self, t_s: float) -> tuple[FloatArray, FloatArray]:
         """Position and attitude, (3,) each, at a time; by the cubic through positions and velocities, NaN without any.
@@ -74,9 +84,10 @@ class Track:
 
     def trail(self, t_s: FloatArray) -> FloatArray:
         """Positions (k, 3) at past times (k,), ascending; NaN where nothing is known."""
-        if not self._trail:
+        if not self._times:
             return np.full((len(t_s), 3), np.nan)
-        times, *axes = np.array(self._trail).T
+        near = slice(max(0, bisect_left(self._times, t_s[0]) - 1), bisect_right(self._times, t_s[-1]) + 1)
+        times, axes = self._times[near], np.array(self._places[near]).T
         return np.stack([np.interp(t_s, times, axis, left=np.nan) for axis in axes], axis=1)
 
 
