@@ -60,7 +60,7 @@ def watch(fleet: FakeFleet, short: Scenario) -> Iterator[Watch]:
 
         def begin(references: Mapping[int, Reference] | None = None, **changes: Any) -> Live:
             names = {1: "left", 2: "middle", 3: "right"}
-            options = {"simulated": True, "step_s": 0.25, "stack": stack} | changes
+            options = {"simulated": True, "stack": stack} | changes
             live = Live(fleet, short.frame, names, references or {}, EDGES, **options)  # type: ignore[arg-type]
             live.advance(0.0)
             return live
@@ -120,6 +120,7 @@ def test_it_goes_on_when_one_falls_silent_and_waits_for_who_is_only_slow(fleet: 
     for sysid in (1, 2, 3):
         fleet.fly(sysid, 10.0, (0.0, 0.0, 0.0))
     for sysid in (1, 2):
+        fleet.fly(sysid, 99.0, (0.0, 0.0, 0.0))
         fleet.fly(sysid, 100.0, (0.0, 0.0, 0.0))
     assert live.advance(1.0).t_s <= 10.0
     fleet.vehicles[3].heard_at_s -= 2.0 * SILENCE_S

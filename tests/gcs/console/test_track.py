@@ -93,7 +93,7 @@ def test_a_trail_is_the_way_that_was_flown_and_unknown_before_its_begin() -> Non
 
 
 def test_a_long_flight_keeps_its_newest_places() -> None:
-    track = track_of(*(sample(float(t_s), x_m=float(t_s)) for t_s in range(TRAIL + 100)))
-    trail = track.trail(np.array([99.0, 100.0, TRAIL + 99.0]))
+    track = track_of(*(sample(float(t_s), x_m=float(t_s)) for t_s in range(2 * TRAIL + 100)))
+    trail = track.trail(np.array([TRAIL - 1.0, TRAIL, 2.0 * TRAIL + 99.0]))
     assert np.isnan(trail[0]).all()
-    assert trail[1:, 0].tolist() == [100.0, TRAIL + 99.0]
+    assert trail[1:, 0].tolist() == [TRAIL, 2.0 * TRAIL + 99.0]
