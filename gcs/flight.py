@@ -5,7 +5,7 @@ import contextlib
 import math
 import time
 from collections.abc import Awaitable, Callable, Coroutine, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, TypeVar
 
@@ -73,6 +73,7 @@ class Cockpit:
         clock: theirs.
         session: on their network.
         statuses: what the station knows of each vehicle, kept up to date.
+        interventions: what is done to the flight, for its record; whoever steers adds to it.
     """
 
     swarm: Swarm
@@ -80,6 +81,7 @@ class Cockpit:
     clock: SwarmClock
     session: zenoh.Session
     statuses: Sequence[VehicleStatus]
+    interventions: list[Event] = field(default_factory=list)
 
 
 Steer = Callable[[Cockpit], Awaitable[None]]
@@ -237,7 +239,9 @@ async def _fly_held(
         if steer is None:
             events = await watch()
         else:
-            events = await _steered(steer(Cockpit(swarm, fleet, clock, session, statuses)), watch)
+            cockpit = Cockpit(swarm, fleet, clock, session, statuses)
+            events = await _steered(steer(cockpit), watch)
+            events = sorted(events + cockpit.interventions, key=lambda event: event.t_s)
         lost = {status.sysid: status.time_s for status in statuses if status.lost is not None}
         with contextlib.suppress(InputError):  # who does not answer is ended with the swarm
             await asyncio.to_thread(clock.stop, swarm.endpoints.keys() - lost.keys())

@@ -20,6 +20,12 @@ class Event:
     what: str
 
 
+LOST = "lost: "
+"""Begins what of an event tells that a vehicle was lost, and why."""
+INTERVENTION = "console: "
+"""Begins what of an event tells that somebody who steered has done it: no seed makes it happen again."""
+
+
 @dataclass(frozen=True)
 class Timing:
     """How long things took: wall time, but for `flight_sim_s`. A rehearsal starts and uploads nothing: None.

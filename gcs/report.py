@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from gcs.figures import draw_all
-from gcs.flight_record import FlightRecord
+from gcs.flight_record import LOST, FlightRecord
 from gcs.metrics import Series, measure, shortfalls
 from gcs.run_folder import RunFolder
 from gcs.truth import Truths, read_shifts, read_truth, read_truths
@@ -64,7 +64,9 @@ def _timed_by_truth(record: FlightRecord, truths: Truths) -> FlightRecord:
     """The record with the times of losses that the truth tells; the station only noticed later."""
     lost = {sysid: len(truths[sysid]) * TICK_S if sysid in truths else t_s for sysid, t_s in record.lost.items()}
     events = [
-        replace(event, t_s=lost[event.sysid]) if event.sysid is not None and event.sysid in lost else event
+        replace(event, t_s=lost[event.sysid])
+        if event.sysid is not None and event.sysid in lost and event.what.startswith(LOST)
+        else event
         for event in record.events
     ]
     return replace(record, lost=lost, events=tuple(events))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from gcs.flight_modes import mode_name
-from gcs.flight_record import Event
+from gcs.flight_record import LOST, Event
 from gcs.vehicle_link import VehicleLink
 from sitl.child import Endpoint
 
@@ -136,7 +136,7 @@ def _news(status: VehicleStatus, link: VehicleLink, endpoint: Endpoint, announce
     status.update(link)
     status.lost = endpoint.obituary()
     if status.lost is not None:
-        yield Event(status.time_s, status.sysid, f"lost: {status.lost}")
+        yield Event(status.time_s, status.sysid, f"{LOST}{status.lost}")
     elif not status.silent and link.silent_s > SILENT_S:
         status.silent = True
         yield _told(status, f"has not answered for {SILENT_S:g} s", announce)

@@ -79,7 +79,11 @@ def steering(
                 stack=stack,
             )
             page = Page(
-                server, place_of(scenario, plan), source, Helm(FleetPilots(cockpit.fleet), helm, helm), end=until.set
+                server,
+                place_of(scenario, plan),
+                source,
+                Helm(FleetPilots(cockpit.fleet, helm.note), helm, helm),
+                end=until.set,
             )
 
             def also() -> None:

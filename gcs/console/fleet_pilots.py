@@ -1,6 +1,6 @@
 """Orders to vehicles over MAVLink, each seen in the vehicle's heartbeats before it counts as obeyed."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from gcs.console.helm import Order
 from gcs.fleet import Fleet
@@ -13,19 +13,28 @@ MODES = {Order.AUTO: Mode.AUTO, Order.LOITER: Mode.LOITER, Order.RTL: Mode.RTL}
 
 
 class FleetPilots:
-    """The vehicles of a fleet."""
+    """The vehicles of a fleet.
 
-    def __init__(self, fleet: Fleet) -> None:
+    Args:
+        fleet: theirs.
+        note: called with who has obeyed, and what.
+    """
+
+    def __init__(self, fleet: Fleet, note: Callable[[int, str], None] = lambda sysid, what: None) -> None:
         self._fleet = fleet
+        self._note = note
 
     async def order(self, order: Order, sysids: Sequence[int]) -> list[str]:
         """See `Pilots`: those that obeyed in one line, a line for each that did not."""
 
         async def obey(vehicle: VehicleLink) -> str:
             if order is Order.ABORT:
-                return await bring_home(vehicle)
-            await change_mode(vehicle, MODES[order])
-            return str(order.value)
+                done = await bring_home(vehicle)
+            else:
+                await change_mode(vehicle, MODES[order])
+                done = str(order.value)
+            self._note(vehicle.sysid, done)
+            return done
 
         results = await for_all([self._fleet.vehicles[i] for i in sysids if i in self._fleet.vehicles], obey)
         lines = []

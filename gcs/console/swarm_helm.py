@@ -3,6 +3,7 @@
 import asyncio
 
 from gcs.flight import Cockpit
+from gcs.flight_record import INTERVENTION, Event
 from gcs.swarm_network import SwarmNetwork
 from sitl.ticks import TICK_S
 
@@ -42,12 +43,20 @@ class SwarmHelm:
     async def disturb(self, delay_s: float, loss: float) -> str:
         """See `NetworkHelm`."""
         tick = await asyncio.to_thread(self._network.disturb, delay_s, loss, self._flying())
-        return f"corrections: {delay_s:g} s later, {100.0 * loss:g} % lost, from {tick * TICK_S:.2f} s on"
+        what = f"corrections {delay_s:g} s later, {100.0 * loss:g} % lost"
+        self._cockpit.interventions.append(Event(tick * TICK_S, None, f"{INTERVENTION}{what}, from tick {tick} on"))
+        return f"{what}, from {tick * TICK_S:.2f} s on"
 
     async def kill(self, sysid: int) -> str:
         """See `NetworkHelm`."""
         self._cockpit.swarm.endpoints[sysid].process.kill()
+        self.note(sysid, "killed")
         return f"vehicle {sysid}: killed"
+
+    def note(self, sysid: int, what: str) -> None:
+        """Keep in the record of the flight that something was done to a vehicle, now."""
+        now_s = max(status.time_s for status in self._cockpit.statuses)
+        self._cockpit.interventions.append(Event(now_s, sysid, INTERVENTION + what))
 
     async def ages_s(self) -> dict[tuple[int, int], float | None]:
         """Of the newest corrections that count, by (sender, receiver)."""

@@ -11,6 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from plotly.offline import get_plotlyjs
 
 from gcs.figures import style
+from gcs.flight_record import INTERVENTION
 from gcs.metrics import Check
 from gcs.report_page.delays import DelayPoint
 from gcs.report_page.flown_run import FlownRun
@@ -53,6 +54,7 @@ class View:
     scene_png: str
     colours: dict[int, Any]
     commands: list[str]
+    steered: bool
 
 
 def write_page(runs: Sequence[tuple[FlownRun, Sequence[DelayPoint]]], file: Path) -> None:
@@ -104,6 +106,7 @@ def _view(run: FlownRun, delays: Sequence[DelayPoint], prefix: str) -> View:
         scene_png=scene_png(run),
         colours=style.vehicle_colours(run.scenario),
         commands=_commands(run),
+        steered=any(event.what.startswith(INTERVENTION) for event in run.metrics.events),
     )
 
 
