@@ -189,13 +189,21 @@ class Web:
         token = None if is_loopback(self.host) else secrets.token_urlsafe(24)
         server = open_server(self.host, self.port, token)
         try:
-            address = f"http://{self.host}:{server.get_port()}/" + (f"?token={token}" if token else "")
-            output.out.print(f"Console: {address}", soft_wrap=True)
+            address = f"http://{self._name()}:{server.get_port()}/" + (f"?token={token}" if token else "")
+            output.out.print(f"Console: {address}", soft_wrap=True, markup=False)
             if self.open_page:
                 webbrowser.open(address)
             yield server
         finally:
             close_server(server)
+
+    def _name(self) -> str:
+        """What browsers call it: an address, or of all addresses this machine's name."""
+        import socket
+
+        if self.host in ("0.0.0.0", "::"):
+            return socket.gethostname()
+        return f"[{self.host}]" if ":" in self.host else self.host
 
 
 def until_interrupted() -> "asyncio.Event":

@@ -25,7 +25,8 @@ def open_server(host: str, port: int, token: str | None) -> viser.ViserServer:
         InputError: nobody can listen there.
     """
     try:
-        socket.create_server((host, 0)).close()  # viser would try for ever
+        family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        socket.create_server((host, 0), family=family).close()  # viser would try for ever
     except OSError as error:
         raise InputError(f"--host {host}: {error.strerror or error}; name an address of this machine") from None
     with _guarded(Door(token)) as served, _quiet():
