@@ -168,11 +168,12 @@ def _show(files: "Sequence[MissionFile]", checked: "Checked", unchecked: Sequenc
             output.out.print(f"{one.path}: {note}", soft_wrap=True, markup=False)
     if checked.figures:
         table = Table(title="Flights", title_justify="left")
-        for index, heading in enumerate(("file", "items", "km", "min")):
+        dialects = {one.path: one.autopilot or "-" for one in files}
+        for index, heading in enumerate(("file", "for", "items", "km", "min")):
             table.add_column(heading, justify="right" if index else "left", overflow="fold")
         for figures in checked.figures:
             km, minutes = f"{figures.length_m / 1000:.2f}", f"{figures.duration_s / 60:.1f}"
-            table.add_row(escape(figures.file.name), str(figures.items), km, minutes)
+            table.add_row(escape(figures.file.name), dialects[figures.file], str(figures.items), km, minutes)
         output.out.print(table)
     if checked.problems:
         table = Table(title=f"Problems: {len(checked.problems)}", title_justify="left")
@@ -203,6 +204,7 @@ def _as_json(files: "Sequence[MissionFile]", checked: "Checked", unchecked: Sequ
             }
             for one in checked.figures
         ],
+        "dialects": {str(one.path): one.autopilot for one in files},
         "problems": [problem.as_json() for problem in checked.problems],
         "not_checked": list(unchecked),
         "notes": {str(one.path): list(one.notes) for one in files},

@@ -83,7 +83,10 @@ def page(
     with matplotlib.rc_context(HOUSE):
         figure = Figure(figsize=(WIDTH_IN, height_in), layout=layout)
         yield figure
-        figure.savefig(path, dpi=DPI)
+        try:
+            figure.savefig(path, dpi=DPI)
+        except OSError as error:  # a disk that is full does not say where
+            raise OSError(error.errno, error.strerror, str(path)) from None
         _log.info("%s drawn", path)
 
 

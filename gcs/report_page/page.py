@@ -53,6 +53,7 @@ class View:
     scene_png: str
     colours: dict[int, Any]
     commands: list[str]
+    lost: str
 
 
 def write_page(runs: Sequence[tuple[FlownRun, Sequence[DelayPoint]]], file: Path) -> None:
@@ -104,7 +105,14 @@ def _view(run: FlownRun, delays: Sequence[DelayPoint], prefix: str) -> View:
         scene_png=scene_png(run),
         colours=style.vehicle_colours(run.scenario),
         commands=_commands(run),
+        lost=_lost(run),
     )
+
+
+def _lost(run: FlownRun) -> str:
+    """Who did not arrive although all is well: it was lost when the scenario says so."""
+    names = [vehicle.name for vehicle in run.metrics.vehicles if vehicle.lost_s is not None]
+    return f"; {', '.join(names)} lost as scheduled, and not expected to arrive" if names else ""
 
 
 def _figures(run: FlownRun) -> list[Figure]:
