@@ -9,7 +9,7 @@ import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.import_files import ComplexChoice, ComplexOption, FilesArgument, HomeOption, TerrainOption, read_files
-from gcs.cli.options import JsonOption, finite
+from gcs.cli.options import DarkOption, JsonOption, finite
 from gcs.cli.station import (
     ConnectOption,
     KeyOption,
@@ -19,6 +19,7 @@ from gcs.cli.station import (
     require_one,
     results_of,
 )
+from gcs.theme import drawn_dark
 
 if TYPE_CHECKING:
     from gcs.check.check import Checked
@@ -60,6 +61,7 @@ def check(
     wait: WaitOption = None,
     signing_key: KeyOption = None,
     figure: FigureOption = None,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Check mission files, each alone and all flown at once.
@@ -70,7 +72,7 @@ def check(
 
     Example: skein check a.plan b.waypoints --terrain ground.tif --endurance 45
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
 
         with working("Loading", brief=True):
