@@ -17,11 +17,11 @@ from gcs.figures.arms import LOOKS
 from gcs.theme import theme
 
 PANELS = (
-    ("rms_error_m", "Formation error, RMS", "m", True),
-    ("min_separation_m", "Least separation", "m", False),
-    ("arrival_spread_s", "Arrival spread", "s", True),
+    ("rms_error_m", "Formation error, RMS", "error (m)", True),
+    ("min_separation_m", "Least separation", "distance (m)", False),
+    ("arrival_spread_s", "Arrival spread", "time (s)", True),
 )
-"""Column, title, unit, and whether its axis is logarithmic."""
+"""Column, title, label of the axis, and whether its axis is logarithmic."""
 WHISKERS = (5, 95)
 """Per cent."""
 
