@@ -59,13 +59,21 @@ def read_shifts(folder: Path, sysids: Iterable[int]) -> dict[int, FloatArray]:
 def write_shifts(shifts: Truths, folder: Path) -> None:
     """Write what `read_shifts` reads into an existing folder. Raises OSError."""
     for sysid, rows in shifts.items():
-        shifts_file(folder / f"{sysid}.f64").write_bytes(rows.astype("<f8", copy=False).tobytes())
+        _write(shifts_file(folder / f"{sysid}.f64"), rows)
 
 
 def write_truths(truths: Truths, folder: Path) -> None:
     """Write each vehicle's truth into an existing folder. Raises OSError."""
     for sysid, rows in truths.items():
-        (folder / f"{sysid}.f64").write_bytes(rows.astype("<f8", copy=False).tobytes())
+        _write(folder / f"{sysid}.f64", rows)
+
+
+def _write(file: Path, rows: npt.NDArray[np.float64]) -> None:
+    """Write rows as they are read; a disk that fills up while it is written to tells no name by itself."""
+    try:
+        file.write_bytes(rows.astype("<f8", copy=False).tobytes())
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(file)) from None
 
 
 def trajectory_sha256(truths: Truths, last_tick: int) -> str:

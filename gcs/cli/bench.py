@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
-from gcs.cli.options import JsonOption, finite
+from gcs.cli.options import DarkOption, JsonOption, finite
 from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
+from gcs.theme import drawn_dark
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,6 +83,7 @@ def bench(
     rehearsal: RehearsalOption = False,
     chain: ChainOption = False,
     console: ConsoleOption = False,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare searches, stations and speeds with their peers.
@@ -90,7 +92,7 @@ def bench(
 
     Example: skein bench --quick --methods pso,skein --out /tmp/bench
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         if kernel:
             measure_kernel(json)
             return

@@ -9,7 +9,7 @@ import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.import_files import ComplexChoice, ComplexOption, FilesArgument, HomeOption, TerrainOption, read_files
-from gcs.cli.options import JsonOption, finite
+from gcs.cli.options import DarkOption, JsonOption, finite
 from gcs.cli.station import (
     ConnectOption,
     KeyOption,
@@ -19,6 +19,7 @@ from gcs.cli.station import (
     require_one,
     results_of,
 )
+from gcs.theme import drawn_dark
 
 if TYPE_CHECKING:
     from gcs.check.check import Checked
@@ -60,6 +61,7 @@ def check(
     wait: WaitOption = None,
     signing_key: KeyOption = None,
     figure: FigureOption = None,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Check mission files, each alone and all flown at once.
@@ -70,7 +72,7 @@ def check(
 
     Example: skein check a.plan b.waypoints --terrain ground.tif --endurance 45
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
 
         with working("Loading", brief=True):
@@ -168,11 +170,12 @@ def _show(files: "Sequence[MissionFile]", checked: "Checked", unchecked: Sequenc
             output.out.print(f"{one.path}: {note}", soft_wrap=True, markup=False)
     if checked.figures:
         table = Table(title="Flights", title_justify="left")
-        for index, heading in enumerate(("file", "items", "km", "min")):
+        dialects = {one.path: one.autopilot or "-" for one in files}
+        for index, heading in enumerate(("file", "for", "items", "km", "min")):
             table.add_column(heading, justify="right" if index else "left", overflow="fold")
         for figures in checked.figures:
             km, minutes = f"{figures.length_m / 1000:.2f}", f"{figures.duration_s / 60:.1f}"
-            table.add_row(escape(figures.file.name), str(figures.items), km, minutes)
+            table.add_row(escape(figures.file.name), dialects[figures.file], str(figures.items), km, minutes)
         output.out.print(table)
     if checked.problems:
         table = Table(title=f"Problems: {len(checked.problems)}", title_justify="left")
@@ -203,6 +206,7 @@ def _as_json(files: "Sequence[MissionFile]", checked: "Checked", unchecked: Sequ
             }
             for one in checked.figures
         ],
+        "dialects": {str(one.path): one.autopilot for one in files},
         "problems": [problem.as_json() for problem in checked.problems],
         "not_checked": list(unchecked),
         "notes": {str(one.path): list(one.notes) for one in files},

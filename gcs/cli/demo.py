@@ -2,6 +2,7 @@
 
 from gcs.cli.errors import exit_codes
 from gcs.cli.options import (
+    DarkOption,
     DelayOption,
     JsonOption,
     NoCorrectionsOption,
@@ -14,6 +15,7 @@ from gcs.cli.options import (
     chosen_arm,
     clock_speed,
 )
+from gcs.theme import drawn_dark
 
 
 def demo(
@@ -25,6 +27,7 @@ def demo(
     no_neighbours: NoNeighboursOption = False,
     speed: SpeedOption = 0.0,
     real_time: RealTimeOption = False,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Plan, upload, fly and report, on simulated vehicles.
@@ -33,7 +36,7 @@ def demo(
 
     Example: skein demo vee --delay 0.4
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
 
         with working("Loading planner and simulation"):

@@ -6,6 +6,7 @@ import typer
 
 from gcs.cli.errors import FELL_SHORT, exit_codes
 from gcs.cli.options import (
+    DarkOption,
     DelayOption,
     JsonOption,
     NoCorrectionsOption,
@@ -17,6 +18,7 @@ from gcs.cli.options import (
     clock_speed,
 )
 from gcs.cli.station import KeyOption
+from gcs.theme import drawn_dark
 
 FlyConnectOption = Annotated[
     list[str] | None,
@@ -48,6 +50,7 @@ def fly(
     no_neighbours: NoNeighboursOption = False,
     speed: SpeedOption = 0.0,
     real_time: RealTimeOption = False,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Fly a planned run, simulated or on vehicles that are there.
@@ -61,7 +64,7 @@ def fly(
 
     Example: skein fly runs/first --connect udpin://127.0.0.1:14550
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
 
         with working("Loading simulation", brief=True):

@@ -35,6 +35,7 @@ OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Ne
 SeedOption = Annotated[
     int | None, typer.Option("--seed", min=0, max=2**63 - 1, metavar="N", help="Seed of search and gusts.")
 ]
+DarkOption = Annotated[bool, typer.Option("--dark", help="Draw pictures light on dark.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON on standard output, and nothing else there.")]
 DelayOption = Annotated[
     float | None,

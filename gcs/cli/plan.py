@@ -7,7 +7,8 @@ import typer
 
 from gcs.cli.completion import methods
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import JsonOption, OutOption, ScenarioArgument, SeedOption
+from gcs.cli.options import DarkOption, JsonOption, OutOption, ScenarioArgument, SeedOption
+from gcs.theme import drawn_dark
 
 if TYPE_CHECKING:
     from gcs.run_folder import RunFolder
@@ -31,13 +32,14 @@ def plan(
     seed: SeedOption = None,
     method: MethodOption = None,
     figures: FiguresOption = False,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Plan a path for every vehicle of a scenario and write a run.
 
     Example: skein plan radars --out runs/first
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
 
         with working("Loading planner", brief=True):

@@ -7,8 +7,9 @@ import typer
 
 from gcs.cli.completion import sources
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import JsonOption, NoCorrectionsOption, NoNeighboursOption, OutOption, chosen_arm
+from gcs.cli.options import DarkOption, JsonOption, NoCorrectionsOption, NoNeighboursOption, OutOption, chosen_arm
 from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
+from gcs.theme import drawn_dark
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -63,6 +64,7 @@ def rehearse(
     cluster: ClusterOption = None,
     out: OutOption = None,
     parquet: ParquetOption = False,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Fly a plan in this process, thousands of times real time.
@@ -76,7 +78,7 @@ def rehearse(
 
     Example: skein rehearse vee --runs 100 --delay 0.2,0.4 --vary arm=full,own_schedule --out runs/delays
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
         from missions.errors import InputError
 

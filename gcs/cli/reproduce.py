@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import JsonOption, SeedOption
+from gcs.cli.options import DarkOption, JsonOption, SeedOption
+from gcs.theme import drawn_dark
 
 if TYPE_CHECKING:
     from gcs.reproduction import Reproduced
@@ -35,6 +36,7 @@ def reproduce(
     iterations: IterationsOption = None,
     count: CountOption = None,
     no_flights: NoFlightsOption = False,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Make the paper's figures 4 to 12 and tables 3 and 6 again.
@@ -45,7 +47,7 @@ def reproduce(
 
     Example: skein reproduce --seeds 2 --out quick
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
 
         with working("Loading planner and simulation", brief=True):

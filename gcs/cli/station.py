@@ -74,9 +74,9 @@ def chosen_sysids(text: str | None) -> list[int] | None:
         return None
     sysids: list[int] = []
     for part in text.split(","):
-        first, _, last = part.partition("-")
+        first, dash, last = part.partition("-")
         try:
-            ids = range(int(first), int(last or first) + 1)
+            ids = range(int(first), int(last if dash else first) + 1)
         except ValueError:
             raise InputError(f"--vehicle {text}: {part!r} is no system id; write 3 or 1,4-6") from None
         if not ids or ids[0] < 1 or ids[-1] > _LAST_SYSID:

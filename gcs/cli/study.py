@@ -7,9 +7,10 @@ import typer
 
 from gcs.cli.completion import sources
 from gcs.cli.errors import exit_codes
-from gcs.cli.options import JsonOption
+from gcs.cli.options import DarkOption, JsonOption
 from gcs.cli.verbosity import Commands
 from gcs.cli.workers import ClusterOption, JobsOption, chosen_workers
+from gcs.theme import drawn_dark
 
 SEEDS, QUICK_SEEDS = 20, 3
 
@@ -45,6 +46,7 @@ def delay(
     out: OutOption = None,
     jobs: JobsOption = None,
     cluster: ClusterOption = None,
+    dark: DarkOption = False,
     json: JsonOption = False,
 ) -> None:
     """Sweep the delay across the margin on several graphs: the linear law, and aircraft in all three arms. Then jitter,
@@ -53,7 +55,7 @@ def delay(
 
     Example: skein study delay vee --quick --out runs/delay
     """
-    with exit_codes():
+    with exit_codes(), drawn_dark(dark):
         from gcs.cli.progress import working
 
         with working("Loading planner and simulation", brief=True):

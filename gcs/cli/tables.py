@@ -111,15 +111,18 @@ def _state(report: dict[str, Any]) -> str:
 
 
 def flight_table(metrics: dict[str, Any]) -> Table:
-    """What each vehicle did."""
+    """What each vehicle did; and whose place it took, where places were reassigned."""
+    moved = any(vehicle["place"] != vehicle["sysid"] for vehicle in metrics["vehicles"])
+    headings = ["items", "arrival s", "late by\ns", "planned\nkm", "flown\nkm", "completed"]
     table = _table(
         f"Flight of {metrics['scenario']}, seed {metrics['seed']}, delay {metrics['delay_s']:g} s",
-        ["vehicle", "items", "arrival s", "late by s", "planned km", "flown km", "completed"],
+        ["vehicle", *["place"] * moved, *headings],
     )
     for vehicle in metrics["vehicles"]:
         arrival, planned = vehicle["arrival_s"], vehicle["planned_arrival_s"]
         table.add_row(
             f"{vehicle['sysid']} {vehicle['name']}",
+            *[str(vehicle["place"])] * moved,
             "-" if vehicle["items_uploaded"] is None else f"{vehicle['items_verified']}/{vehicle['items_uploaded']}",
             _shown(arrival, ".1f"),
             "-" if arrival is None else f"{arrival - planned:+.2f}",

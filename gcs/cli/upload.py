@@ -23,6 +23,7 @@ from gcs.cli.station import (
 
 if TYPE_CHECKING:
     from gcs.vehicle_link import VehicleLink
+    from missions.formats.mission_file import MissionFile
     from missions.vehicle_plan import Plan
 
 SourceArgument = Annotated[
@@ -60,22 +61,51 @@ def upload(
         options = StationOptions(connect, vehicle, wait, signing_key, json)
         title = "Uploaded, read back and compared"
         if source.is_dir():
-            plans = _chosen(_plans_in(source, home, complex_items), source, options.sysids())
+            written: dict[int, MissionFile] = {}
+            plans = _chosen(_plans_in(source, home, complex_items, written), source, options.sysids())
+
+            def warn(vehicles: "Sequence[VehicleLink]") -> None:
+                for one in vehicles:
+                    _warn_of_dialect(one, written.get(one.sysid))
+
             for_vehicles(
-                options, title, lambda one: upload_plan(one, plans[one.sysid]), sysids=list(plans), words=_words
+                options,
+                title,
+                lambda one: upload_plan(one, plans[one.sysid]),
+                sysids=list(plans),
+                check=warn,
+                words=_words,
             )
         else:
-            plan = _plan_of_file(source, home, complex_items)
+            file = _read_file(source, home, complex_items)
 
             def check(vehicles: "Sequence[VehicleLink]") -> None:
                 if options.vehicle is None:
                     require_one(vehicles, "one file")
+                for one in vehicles:
+                    _warn_of_dialect(one, file)
 
-            for_vehicles(options, title, lambda one: upload_plan(one, plan), check=check, words=_words)
+            for_vehicles(options, title, lambda one: upload_plan(one, file.plan), check=check, words=_words)
 
 
-def _plans_in(folder: Path, home: str | None, complex_items: ComplexChoice) -> "dict[int, Plan]":
+def _warn_of_dialect(vehicle: "VehicleLink", file: "MissionFile | None") -> None:
+    """Say it when a file is in another autopilot's dialect: speeds and altitudes may mean something else there."""
+    from gcs.cli import output
+
+    if file is not None and file.autopilot not in (None, vehicle.autopilot):
+        output.progress.print(
+            f"{vehicle}: {file.path} says that it is for {file.autopilot}, and the vehicle is {vehicle.autopilot}: "
+            f"speeds may mean something else to it; `skein export --autopilot {vehicle.autopilot}` writes its own",
+            soft_wrap=True,
+            markup=False,
+        )
+
+
+def _plans_in(
+    folder: Path, home: str | None, complex_items: ComplexChoice, written: "dict[int, MissionFile]"
+) -> "dict[int, Plan]":
     """By system id: what files named <sysid>-<name>.plan hold, as `skein export` writes them, or else a run's missions.
+    The files go into `written`.
 
     Raises:
         InputError: it is neither, a file cannot be read, or two are for one vehicle.
@@ -89,7 +119,8 @@ def _plans_in(folder: Path, home: str | None, complex_items: ComplexChoice) -> "
         if (found := _EXPORTED.fullmatch(path.name)) is not None:
             if (sysid := int(found[1])) in plans:
                 raise InputError(f"{path}: another file here is for vehicle {sysid}, too; leave one of them")
-            plans[sysid] = _plan_of_file(path, home, complex_items)
+            written[sysid] = _read_file(path, home, complex_items)
+            plans[sysid] = written[sysid].plan
     if not plans:
         if home is not None or complex_items is not ComplexChoice.refuse:
             raise InputError(f"{folder}: is a run; --home and --complex are for files of other stations")
@@ -107,7 +138,7 @@ def _chosen(plans: "dict[int, Plan]", folder: Path, sysids: Sequence[int] | None
     return plans if sysids is None else {sysid: plans[sysid] for sysid in sysids}
 
 
-def _plan_of_file(path: Path, home: str | None, complex_items: ComplexChoice) -> "Plan":
+def _read_file(path: Path, home: str | None, complex_items: ComplexChoice) -> "MissionFile":
     from gcs.cli import output
     from missions.errors import InputError
 
@@ -116,7 +147,7 @@ def _plan_of_file(path: Path, home: str | None, complex_items: ComplexChoice) ->
     (found,) = read_files([path], home, complex_items)
     for note in found.notes:
         output.progress.print(f"{path}: {note}", soft_wrap=True, markup=False)
-    return found.plan
+    return found
 
 
 def _words(counts: dict[str, int]) -> str:

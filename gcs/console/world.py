@@ -16,6 +16,7 @@ from gcs.console.chart import SIDE, Chart
 from gcs.console.place import Place
 from gcs.figures import style
 from gcs.figures.paths import Ground
+from gcs.theme import LIGHT
 from missions.environment import Environment
 
 FloatArray = npt.NDArray[np.float64]
@@ -118,7 +119,7 @@ def _ground(scene: viser.SceneApi, chart: Chart, ground: Ground) -> None:
         z = float(ground.z_m.min())
         corners = chart.units([(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)])
         scene.add_mesh_simple(
-            "/world/ground", corners, np.array([[0, 1, 2], [0, 2, 3]]), color=rgb(style.GROUND[0]), side="double",
+            "/world/ground", corners, np.array([[0, 1, 2], [0, 2, 3]]), color=rgb(LIGHT.ground[0]), side="double",
             cast_shadow=False, receive_shadow=False,
         )  # fmt: skip
         return
@@ -132,7 +133,7 @@ def _ground(scene: viser.SceneApi, chart: Chart, ground: Ground) -> None:
 def _paint(ground: Ground) -> trimesh.visual.TextureVisuals:
     """From the plain to the peaks, as a picture on the ground: colours of vertices would come out as metal."""
     shares = (ground.z_m - ground.z_m.min()) / np.ptp(ground.z_m)
-    colours = LinearSegmentedColormap.from_list("ground", style.GROUND)(shares, bytes=True)
+    colours = LinearSegmentedColormap.from_list("ground", LIGHT.ground)(shares, bytes=True)
     picture = Image.fromarray(colours[::-1, :, :3])  # its first row is the northernmost
     material = trimesh.visual.material.PBRMaterial(baseColorTexture=picture, metallicFactor=0.0, roughnessFactor=1.0)
     m, n = ground.z_m.shape

@@ -14,13 +14,14 @@ from gcs.campaign.summary import numbers
 from gcs.campaign.table import Row, Table
 from gcs.figures import style
 from gcs.figures.arms import LOOKS
+from gcs.theme import theme
 
 PANELS = (
-    ("rms_error_m", "Formation error, RMS", "m", True),
-    ("min_separation_m", "Least separation", "m", False),
-    ("arrival_spread_s", "Arrival spread", "s", True),
+    ("rms_error_m", "Formation error, RMS", "error (m)", True),
+    ("min_separation_m", "Least separation", "distance (m)", False),
+    ("arrival_spread_s", "Arrival spread", "time (s)", True),
 )
-"""Column, title, unit, and whether its axis is logarithmic."""
+"""Column, title, label of the axis, and whether its axis is logarithmic."""
 WHISKERS = (5, 95)
 """Per cent."""
 
@@ -75,7 +76,7 @@ def _draw_axis(campaign: Campaign, rows: Sequence[Row], key: str | None, path: P
         style.headline(figure, f"{campaign.scenario.name}: {len(rows)} flights")
         handles = [style.line_handle(LOOKS[arm][0], color=LOOKS[arm][1], linewidth=5) for arm in arms]
         handles += [
-            style.line_handle("median, quartiles,\n5 and 95 %; extremes", color=style.INK),
+            style.line_handle("median, quartiles,\n5 and 95 %; extremes", color=theme().ink),
             style.line_handle(f"safe: {campaign.scenario.limits.separation_m:g} m", color=style.DANGER),
         ]
         style.legend_beside(figure, handles)
@@ -91,6 +92,6 @@ def _boxes(panel: Panel, groups: Sequence[npt.NDArray[np.float64]], offset: floa
         manage_ticks=False,
         patch_artist=True,
         boxprops={"facecolor": colour, "alpha": 0.55, "linewidth": 0.8},
-        medianprops={"color": style.INK, "linewidth": 1.4},
+        medianprops={"color": theme().ink, "linewidth": 1.4},
         flierprops={"marker": ".", "markersize": 3, "markerfacecolor": colour, "markeredgecolor": colour},
     )

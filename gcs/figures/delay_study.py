@@ -11,6 +11,7 @@ from gcs.figures import style
 from gcs.figures.arms import LOOKS
 from gcs.study.linear_sweep import BARE, FLOWN, PIN_ALL, PIN_ONE, TICKS, Amplification, Growth
 from gcs.study.points import Point, on_curve
+from gcs.theme import theme
 
 LAWS = {
     BARE: ("bare law,\nunit weights", style.VEHICLES[0], "o", "-"),
@@ -87,7 +88,7 @@ def draw_aircraft(
                 for arm in ("own_schedule", "plain"):
                     _level(axes, on_curve(points, graph, arm)[0], measure, scale, LOOKS[arm][1])
                 axes.axvline(margin_s, color=style.DANGER, linewidth=1.2)
-                axes.axvline(delay_s, color=style.FAINT, linewidth=1.0, linestyle=":")
+                axes.axvline(delay_s, color=theme().faint, linewidth=1.0, linestyle=":")
                 axes.set_xlim(0.0, full[-1].level)
                 if row == 0:
                     axes.set_title(graph)
@@ -101,7 +102,7 @@ def draw_aircraft(
         figure.align_ylabels()
         style.headline(figure, f"{scenario}: past τ* aircraft fall into a limit cycle of thrust ({_flights(points)})")
         handles = [style.line_handle(label, color=colour) for label, colour in LOOKS.values()]
-        handles += [_margin_handle(), style.line_handle(f"scenario: {delay_s:g} s", color=style.FAINT, linestyle=":")]
+        handles += [_margin_handle(), style.line_handle(f"scenario: {delay_s:g} s", color=theme().faint, linestyle=":")]
         figure.legend(handles=handles, loc="outside lower left", ncols=len(handles))
 
 
@@ -146,7 +147,7 @@ def draw_pins(scenario: str, growths: Sequence[Growth], points: Sequence[Point],
                 axes.set_title(f"aircraft, {name.split(' (')[0]}".replace("\n", " "))
                 axes.set_ylabel(name.replace("\n", " "))
         left.axvline(growths[0].margin_s, color=style.DANGER, linewidth=1.2)
-        left.axhline(0.0, color=style.INK, linewidth=0.8)
+        left.axhline(0.0, color=theme().ink, linewidth=0.8)
         left.set_title("linear law")
         left.set_ylabel("growth (1/s)")
         for axes in (middle, right):
@@ -188,7 +189,7 @@ def draw_line(scenario: str, found: Sequence[Amplification], path: Path) -> None
 
 def _edge_of_stability(axes: Axes) -> None:
     axes.axvline(1.0, color=style.DANGER, linewidth=1.2)
-    axes.axhline(0.0, color=style.INK, linewidth=0.8)
+    axes.axhline(0.0, color=theme().ink, linewidth=0.8)
 
 
 def _margin_handle(label: str = "margin τ*") -> Line2D:

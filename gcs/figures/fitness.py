@@ -7,6 +7,7 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 
 from gcs.figures import style
+from gcs.theme import theme
 from missions.scenario import Scenario
 from planner.reproduction import Outcome
 
@@ -45,10 +46,10 @@ def draw_fitness(scenario: Scenario, outcome: Outcome, particles: int, seed: int
         zoom = axes.inset_axes(ZOOM_FRAME)
         _curves(axes, scenario, steps, costs_km)
         _curves(zoom, scenario, steps, costs_km)
-        axes.axhspan(*REPORTED_KM, color=style.FAINT, alpha=0.18, linewidth=0)
+        axes.axhspan(*REPORTED_KM, color=theme().faint, alpha=0.18, linewidth=0)
         leader = scenario.vehicles[0]
         line_km = float(np.linalg.norm(np.subtract(scenario.target_m(leader), scenario.origin_m(leader)))) / 1000.0
-        axes.axhline(line_km, color=style.INK, linewidth=1.0, linestyle=style.DASHES)
+        axes.axhline(line_km, color=theme().ink, linewidth=1.0, linestyle=style.DASHES)
         axes.set_title("Best feasible f so far")
         axes.set_xlabel("iteration")
         axes.set_ylabel("fitness f (km)")
@@ -61,9 +62,9 @@ def draw_fitness(scenario: Scenario, outcome: Outcome, particles: int, seed: int
             figure,
             [
                 *style.vehicle_handles(scenario),
-                style.line_handle("leader's straight\nline, which no\npath can beat", color=style.INK, linewidth=1.0,
+                style.line_handle("leader's straight\nline, which no\npath can beat", color=theme().ink, linewidth=1.0,
                                   linestyle=style.DASHES),
-                style.line_handle("20 to 30, which\nthe paper reports", color=style.FAINT, alpha=0.4, linewidth=8),
+                style.line_handle("20 to 30, which\nthe paper reports", color=theme().faint, alpha=0.4, linewidth=8),
             ],
         )  # fmt: skip
 
@@ -96,4 +97,4 @@ def _place_zoom(axes: Axes, zoom: Axes, costs_km: FloatArray) -> None:
     highest = float(below[np.isfinite(below)].max())
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, max(top, bottom + (highest - bottom) / BELOW_ZOOM))
-    axes.indicate_inset_zoom(zoom, edgecolor=style.FAINT)
+    axes.indicate_inset_zoom(zoom, edgecolor=theme().faint)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from gcs.figures import style
 from gcs.metrics.series import Series
+from gcs.theme import theme
 from missions.scenario import Scenario
 
 
@@ -18,7 +19,7 @@ def draw_formation(scenario: Scenario, series: Series, path: Path) -> None:
         above.set_title("Formation error" if overall_m is None else f"Formation error, {overall_m:.2f} m RMS in all")
         above.set_ylabel("error (m)")
         below.plot(t_s, series.separation_m, color=style.VEHICLES[2], linewidth=2.2)
-        below.plot(t_s, series.planned_separation_m, color=style.INK, linewidth=0.9, linestyle=style.DASHES)
+        below.plot(t_s, series.planned_separation_m, color=theme().ink, linewidth=0.9, linestyle=style.DASHES)
         below.axhline(scenario.limits.separation_m, color=style.DANGER, linewidth=1.4)
         below.set_title("Least separation of any two")
         below.set_ylabel("distance (m)")
@@ -33,7 +34,7 @@ def draw_formation(scenario: Scenario, series: Series, path: Path) -> None:
                 style.line_handle("largest of the edges", color=style.VEHICLES[4], alpha=0.4, linewidth=7),
                 style.line_handle("RMS over the edges", color=style.VEHICLES[0]),
                 style.line_handle("separation flown", color=style.VEHICLES[2], linewidth=2.2),
-                style.line_handle("separation planned", color=style.INK, linewidth=0.9, linestyle=style.DASHES),
+                style.line_handle("separation planned", color=theme().ink, linewidth=0.9, linestyle=style.DASHES),
                 style.line_handle(f"safe: {scenario.limits.separation_m:g} m", color=style.DANGER),
             ],
         )

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from gcs.figures import style
+from gcs.theme import theme
 from planner.bench.growth import Growth, exponent
 
 POWER = 1.3
@@ -19,8 +20,8 @@ def draw_growth(growths: Sequence[Growth], path: Path) -> None:
         axes = figure.subplots()
         axes.plot(n, cpu_s, color=style.VEHICLES[0], marker="o")
         nlogn, power = line * np.log(line) / (n[0] * np.log(n[0])), (line / n[0]) ** POWER
-        axes.plot(line, cpu_s[0] * nlogn, color=style.FAINT, linestyle=":")
-        axes.plot(line, cpu_s[0] * power, color=style.FAINT, linestyle=style.DASHES)
+        axes.plot(line, cpu_s[0] * nlogn, color=theme().faint, linestyle=":")
+        axes.plot(line, cpu_s[0] * power, color=theme().faint, linestyle=style.DASHES)
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xticks(n, [f"{count:g}" for count in n])
@@ -32,7 +33,7 @@ def draw_growth(growths: Sequence[Growth], path: Path) -> None:
         style.headline(figure, f"Planning many vehicles: time grows as n^{exponent(growths):.2f}")
         handles = [
             style.line_handle("measured, verified", color=style.VEHICLES[0], marker="o"),
-            style.line_handle("n log n", color=style.FAINT, linestyle=":"),
-            style.line_handle(f"n^{POWER:g}", color=style.FAINT, linestyle=style.DASHES),
+            style.line_handle("n log n", color=theme().faint, linestyle=":"),
+            style.line_handle(f"n^{POWER:g}", color=theme().faint, linestyle=style.DASHES),
         ]
         style.legend_beside(figure, handles)

@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 
 from gcs.figures import style
 from gcs.figures.style import KM
+from gcs.theme import theme
 from missions.environment import ground_heights_m
 from missions.reference import Reference
 from missions.scenario import Scenario
@@ -80,7 +81,7 @@ def draw_heights(plan: FormationPlan, scenario: Scenario, path: Path) -> None:
         style.legend_beside(
             figure,
             [
-                style.line_handle("planned", color=style.INK, linewidth=1.8),
+                style.line_handle("planned", color=theme().ink, linewidth=1.8),
                 style.line_handle(
                     f"lowest allowed:\n{scenario.limits.clearance_m:g} m above ground\n"
                     f"after {scenario.limits.climb_out_m * KM:g} km",
@@ -88,14 +89,14 @@ def draw_heights(plan: FormationPlan, scenario: Scenario, path: Path) -> None:
                     linewidth=1.1,
                     linestyle=style.DASHES,
                 ),
-                Patch(color=style.GROUND[2], label="ground, as in\nthe elevation file"),
+                Patch(color=theme().ground[2], label="ground, as in\nthe elevation file"),
             ],
         )
 
 
 def _panel(axes: Axes, one: Profile, colour: str) -> None:
     km = one.s_m * KM
-    axes.fill_between(km, one.ground_m, -1e5, color=style.GROUND[2], linewidth=0)
+    axes.fill_between(km, one.ground_m, -1e5, color=theme().ground[2], linewidth=0)
     axes.plot(km, one.lowest_m, color=style.DANGER, linewidth=1.1, linestyle=style.DASHES)
     axes.plot(km, one.way_m, color=colour, linewidth=1.8)
 

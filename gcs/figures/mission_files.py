@@ -13,6 +13,7 @@ from gcs.figures import style
 from gcs.figures.paths import ground_below
 from gcs.figures.projections import AXES, draw_ground
 from gcs.figures.style import KM
+from gcs.theme import theme
 from missions.commands import PLACES, Command
 from missions.fence import Fence, FenceCircle
 from missions.frame import LocalFrame
@@ -26,11 +27,6 @@ FloatArray = npt.NDArray[np.float64]
 MAP_WIDTH_IN = 6.6
 REST_IN = 1.1
 """Of the page's height: titles and labels."""
-FENCE = "#4b4b4b"
-HOME: dict[str, Any] = {"markersize": 9, "markeredgecolor": style.INK, "linestyle": "", "zorder": 4}
-RALLY: dict[str, Any] = {
-    "markersize": 5, "markerfacecolor": style.PAPER, "markeredgecolor": style.INK, "linestyle": "", "zorder": 5
-}  # fmt: skip
 CIRCLES = frozenset({Command.NAV_LOITER_UNLIM, Command.NAV_LOITER_TURNS, Command.NAV_LOITER_TO_ALT})
 """Items whose param3 is a radius."""
 
@@ -57,7 +53,7 @@ def draw_mission_files(plans: Mapping[str, Plan], scenario: Scenario, path: Path
             _fence(axes, plan.fence, scenario.frame)
             for rally in plan.rally:
                 x, y = scenario.frame.from_e7(rally.lat_e7, rally.lon_e7)
-                axes.plot(x * KM, y * KM, marker="^", **RALLY)
+                axes.plot(x * KM, y * KM, marker="^", **_rally())
         axes.set_aspect("equal")
         axes.set_xlim(x0 * KM, x1 * KM)
         axes.set_ylim(y0 * KM, y1 * KM)
@@ -93,14 +89,14 @@ def _items(axes: Axes, mission: Mission, frame: LocalFrame, colour: str) -> None
         radius_m = abs(item.param3) if item.command in CIRCLES else radius_m
         if radius_m > 0.0:
             axes.add_patch(Circle((x, y), radius_m * KM, facecolor="none", edgecolor=colour, linewidth=0.8))
-    axes.plot(home[0] * KM, home[1] * KM, marker="s", **HOME, color=colour)
+    axes.plot(home[0] * KM, home[1] * KM, marker="s", **_home(), color=colour)
 
 
 def _fence(axes: Axes, fence: Fence, frame: LocalFrame) -> None:
     """Areas to stay in are drawn as a line, those to stay out of are filled."""
     for area in fence.areas:
         look: dict[str, Any] = (
-            {"facecolor": "none", "edgecolor": FENCE, "linewidth": 1.0, "linestyle": style.DASHES}
+            {"facecolor": "none", "edgecolor": theme().ink, "linewidth": 1.0, "linestyle": style.DASHES}
             if area.inclusion
             else {"facecolor": style.DANGER, "alpha": 0.06, "edgecolor": "none"}
         )
@@ -122,10 +118,19 @@ def _rim(fence: Fence, frame: LocalFrame) -> FloatArray:
 def _handles(names: Sequence[str], colours: Sequence[str]) -> list[object]:
     return [
         *(style.line_handle(name, color=colour) for name, colour in zip(names, colours, strict=True)),
-        style.line_handle("home", marker="s", **HOME, color=style.FAINT),
-        style.line_handle("rally point", marker="^", **RALLY),
+        style.line_handle("home", marker="s", **_home(), color=theme().faint),
+        style.line_handle("rally point", marker="^", **_rally()),
         style.line_handle(
-            "acceptance, circles", marker="o", markersize=9, color=style.INK, linestyle="", fillstyle="none"
+            "acceptance, circles", marker="o", markersize=9, color=theme().ink, linestyle="", fillstyle="none"
         ),
-        style.line_handle("fence: stay in", color=FENCE, linewidth=1.0, linestyle=style.DASHES),
+        style.line_handle("fence: stay in", color=theme().ink, linewidth=1.0, linestyle=style.DASHES),
     ]
+
+
+def _home() -> dict[str, Any]:
+    return {"markersize": 9, "markeredgecolor": theme().ink, "linestyle": "", "zorder": 4}
+
+
+def _rally() -> dict[str, Any]:
+    face, edge = theme().paper, theme().ink
+    return {"markersize": 5, "markerfacecolor": face, "markeredgecolor": edge, "linestyle": "", "zorder": 5}

@@ -5,6 +5,7 @@ from pathlib import Path
 from gcs.figures import style
 from gcs.figures.paths import flown_paths, ground_below, planned_paths
 from gcs.figures.projections import AXES, MAP_WIDTH_IN, Plane, project, title_of
+from gcs.theme import theme
 from gcs.truth import Truths
 from missions.scenario import Scenario
 from planner.formation_plan import FormationPlan
@@ -32,5 +33,5 @@ def draw_plan_views(plan: FormationPlan, scenario: Scenario, truths: Truths | No
         style.headline(figure, f"{scenario.name}: {'planned' if truths is None else 'planned and flown'}")
         handles = [*style.vehicle_handles(scenario), *style.surroundings_handles(scenario.environment)]
         if flown:
-            handles.append(style.line_handle("planned", color=style.INK, linewidth=0.9, linestyle=style.DASHES))
+            handles.append(style.line_handle("planned", color=theme().ink, linewidth=0.9, linestyle=style.DASHES))
         style.legend_beside(figure, handles)

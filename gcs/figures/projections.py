@@ -13,6 +13,7 @@ from matplotlib.patches import Circle, Ellipse, Rectangle
 from gcs.figures import style
 from gcs.figures.paths import Ground, flown_paths, ground_below, planned_paths
 from gcs.figures.style import KM
+from gcs.theme import theme
 from gcs.truth import Truths
 from missions.environment import Environment
 from missions.scenario import Scenario
@@ -51,7 +52,7 @@ def draw_projection(
         style.headline(figure, headline)
         handles = [*style.vehicle_handles(scenario), *style.surroundings_handles(scenario.environment)]
         if flown:
-            handles.append(style.line_handle("planned", color=style.INK, linewidth=0.9, linestyle=style.DASHES))
+            handles.append(style.line_handle("planned", color=theme().ink, linewidth=0.9, linestyle=style.DASHES))
         style.legend_beside(figure, handles)
 
 
@@ -88,21 +89,21 @@ def project(
     for sysid, points in flown.items():
         axes.plot(points[:, across] * KM, points[:, up] * unit, color=colours[sysid], linewidth=2.6)
     for sysid, points in planned.items():
-        look: dict[str, Any] = {"color": style.INK, "linewidth": 0.8} if flown else {"color": colours[sysid]}
+        look: dict[str, Any] = {"color": theme().ink, "linewidth": 0.8} if flown else {"color": colours[sysid]}
         axes.plot(points[:, across] * KM, points[:, up] * unit, linestyle=style.DASHES, **look)
         end = points[-1]
-        axes.plot(end[across] * KM, end[up] * unit, marker="*", markersize=9, color=style.INK, linestyle="")
+        axes.plot(end[across] * KM, end[up] * unit, marker="*", markersize=9, color=theme().ink, linestyle="")
 
 
 def draw_ground(axes: Axes, ground: Ground) -> None:
     """The ground from above, by its heights."""
     axes.grid(visible=False)
-    colours = LinearSegmentedColormap.from_list("ground", style.GROUND)
-    axes.set_facecolor(style.GROUND[0])
+    colours = LinearSegmentedColormap.from_list("ground", theme().ground)
+    axes.set_facecolor(theme().ground[0])
     if not ground.level:
         x, y = ground.x_m * KM, ground.y_m * KM
         filled = axes.contourf(x, y, ground.z_m, levels=12, cmap=colours)
-        axes.contour(x, y, ground.z_m, levels=filled.levels, colors=style.FAINT, linewidths=0.4)
+        axes.contour(x, y, ground.z_m, levels=filled.levels, colors=theme().faint, linewidths=0.4)
         axes.figure.colorbar(filled, ax=axes, label="ground z (m)", shrink=0.8, pad=0.01)
 
 
@@ -124,7 +125,7 @@ def _side(axes: Axes, ground: Ground, environment: Environment, across: int) -> 
     lowest = float(ground.z_m.min())
     silhouette = ground.z_m.max(axis=across)
     along = (ground.x_m, ground.y_m)[across]
-    axes.fill_between(along * KM, silhouette, lowest, color=style.GROUND[1], linewidth=0)
+    axes.fill_between(along * KM, silhouette, lowest, color=theme().ground[1], linewidth=0)
     for radar in environment.radars:
         size = (2.0 * radar.radius_m * KM, 2.0 * radar.radius_m)
         centre = ((radar.x_m, radar.y_m)[across] * KM, radar.z_m)

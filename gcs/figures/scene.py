@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from gcs.figures import style
 from gcs.figures.paths import Ground, flown_paths, ground_below, planned_paths
 from gcs.figures.style import KM
+from gcs.theme import theme
 from gcs.truth import Truths
 from missions.environment import Environment
 from missions.scenario import Scenario
@@ -125,7 +126,7 @@ def _shape(axes: Any, ground: Ground, bottom_m: float, top_m: float, view: View)
 
 def _ground(axes: Any, ground: Ground, factor: int) -> None:
     """The shaded surface."""
-    colours = LinearSegmentedColormap.from_list("ground", style.GROUND)
+    colours = LinearSegmentedColormap.from_list("ground", theme().ground)
     if ground.level:
         lit = np.broadcast_to(colours(0.0), (*ground.z_m.shape, 4))
     else:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from gcs.figures import style
 from gcs.metrics.series import Series
+from gcs.theme import theme
 from missions.scenario import Scenario
 
 
@@ -20,8 +21,8 @@ def draw_schedule(scenario: Scenario, series: Series, path: Path) -> None:
             below.plot(schedule.t_s, deviation, color=colours[sysid], linewidth=1.2)
         for i in range(len(series.tracks.sysids)):
             planned_share = schedule.planned_m[i] * 100.0 / schedule.length_m[i]
-            above.plot(schedule.t_s, planned_share, color=style.INK, linewidth=0.4, linestyle=style.DASHES)
-        below.axhline(0.0, color=style.INK, linewidth=0.9, linestyle=style.DASHES)
+            above.plot(schedule.t_s, planned_share, color=theme().ink, linewidth=0.4, linestyle=style.DASHES)
+        below.axhline(0.0, color=theme().ink, linewidth=0.9, linestyle=style.DASHES)
         above.set_title("Progress along its path")
         above.set_ylabel("path flown (%)")
         above.set_ylim(0.0, 102.0)
@@ -30,5 +31,5 @@ def draw_schedule(scenario: Scenario, series: Series, path: Path) -> None:
         below.set_xlabel("time since launch (s)")
         below.set_xlim(0.0, schedule.t_s[-1])
         style.headline(figure, f"{scenario.name}: the schedule")
-        planned_handle = style.line_handle("planned", color=style.INK, linewidth=0.9, linestyle=style.DASHES)
+        planned_handle = style.line_handle("planned", color=theme().ink, linewidth=0.9, linestyle=style.DASHES)
         style.legend_beside(figure, [*style.vehicle_handles(scenario), planned_handle])

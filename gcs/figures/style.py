@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from gcs.theme import theme
 from missions.environment import Environment
 from missions.scenario import Scenario
 
@@ -22,17 +23,13 @@ DPI = 150
 """1500 pixels wide: sharp in a README, whose column is some 900 wide."""
 KM = 1e-3
 
-INK = "#222222"
-FAINT = "#8a8a8a"
-PAPER = "#ffffff"
 DANGER = "#c1272d"
 RADAR = "#d9822b"
 OBSTACLE = "#5b6573"
-GROUND = ("#dde5d0", "#c2cda5", "#b0a97a", "#97805d", "#7d6655", "#d8d4d0")
-"""From the plain to the peaks."""
 
-VEHICLES = ("#4A45B8", "#CC6677", "#117733", "#DDAA33", "#33AADD", "#9A2463", "#44AA99", "#999933", "#AA4499")
-"""P. Tol's "muted" scheme, which colour-blind readers tell apart, its lightest and darkest colours drawn together."""
+VEHICLES = ("#5F5AD6", "#CC6677", "#117733", "#DDAA33", "#33AADD", "#B8347C", "#44AA99", "#999933", "#AA4499")
+"""P. Tol's "muted" scheme, which colour-blind readers tell apart, its extremes drawn together, for light paper
+and dark."""
 DASHES = (0, (5, 2.5))
 """What is planned."""
 
@@ -46,27 +43,29 @@ HOUSE: dict[Any, Any] = {
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
     "axes.labelsize": 11,
-    "axes.labelcolor": INK,
-    "axes.edgecolor": FAINT,
     "axes.linewidth": 0.8,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
     "axes.axisbelow": True,
-    "grid.color": "#dddddd",
     "grid.linewidth": 0.7,
-    "xtick.color": INK,
-    "ytick.color": INK,
     "xtick.labelsize": 10,
     "ytick.labelsize": 10,
-    "text.color": INK,
     "legend.frameon": False,
     "legend.fontsize": 10,
     "legend.title_fontsize": 10,
     "lines.linewidth": 1.6,
-    "figure.facecolor": PAPER,
-    "savefig.facecolor": PAPER,
 }
+
+
+def house() -> dict[Any, Any]:
+    """The house style in the colours of the theme."""
+    now = theme()
+    ink = dict.fromkeys(("axes.labelcolor", "axes.titlecolor", "xtick.color", "ytick.color", "text.color"), now.ink)
+    ink |= dict.fromkeys(("lines.color", "patch.edgecolor", "boxplot.flierprops.color"), now.ink)
+    ink |= {f"boxplot.{part}props.color": now.ink for part in ("box", "whisker", "cap", "median")}
+    paper = dict.fromkeys(("axes.facecolor", "figure.facecolor", "savefig.facecolor"), now.paper)
+    return HOUSE | ink | paper | {"axes.edgecolor": now.faint, "grid.color": now.grid}
 
 
 @contextmanager
@@ -80,10 +79,13 @@ def page(
         height_in: of the page.
         layout: "compressed" for axes of a fixed aspect, None for axes that are put in place by hand.
     """
-    with matplotlib.rc_context(HOUSE):
+    with matplotlib.rc_context(house()):
         figure = Figure(figsize=(WIDTH_IN, height_in), layout=layout)
         yield figure
-        figure.savefig(path, dpi=DPI)
+        try:
+            figure.savefig(path, dpi=DPI)
+        except OSError as error:  # a disk that is full does not say where
+            raise OSError(error.errno, error.strerror, str(path)) from None
         _log.info("%s drawn", path)
 
 

@@ -55,6 +55,7 @@ class View:
     colours: dict[int, Any]
     commands: list[str]
     steered: bool
+    lost: str
 
 
 def write_page(runs: Sequence[tuple[FlownRun, Sequence[DelayPoint]]], file: Path) -> None:
@@ -107,7 +108,14 @@ def _view(run: FlownRun, delays: Sequence[DelayPoint], prefix: str) -> View:
         colours=style.vehicle_colours(run.scenario),
         commands=_commands(run),
         steered=any(event.what.startswith(INTERVENTION) for event in run.metrics.events),
+        lost=_lost(run),
     )
+
+
+def _lost(run: FlownRun) -> str:
+    """Who did not arrive although all is well: it was lost when the scenario says so."""
+    names = [vehicle.name for vehicle in run.metrics.vehicles if vehicle.lost_s is not None]
+    return f"; {', '.join(names)} lost as scheduled, and not expected to arrive" if names else ""
 
 
 def _figures(run: FlownRun) -> list[Figure]:

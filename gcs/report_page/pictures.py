@@ -13,15 +13,14 @@ from gcs.figures import (
     draw_plan_views,
     draw_scene,
     draw_schedule,
-    style,
 )
 from gcs.figures.delay_curve import draw_delay_curve
 from gcs.figures.projections import draw_projection
 from gcs.report_page.delays import DelayPoint
 from gcs.report_page.flown_run import FlownRun
+from gcs.theme import LIGHT
 
-GRID = str(style.HOUSE["grid.color"])
-THEMED = {style.INK: "currentColor", style.PAPER: "var(--paper)", GRID: "var(--line)"}
+THEMED = {LIGHT.ink: "currentColor", LIGHT.paper: "var(--paper)", LIGHT.grid: "var(--line)"}
 
 
 class Picture(NamedTuple):

@@ -11,6 +11,7 @@ from gcs.figures.paths import Ground, flown_paths, ground_below, planned_paths
 from gcs.figures.scene import EXAGGERATIONS, HEIGHT_SHARE, TURNS
 from gcs.figures.style import KM
 from gcs.report_page.flown_run import FlownRun
+from gcs.theme import LIGHT
 from missions.environment import Environment
 
 FloatArray = npt.NDArray[np.float64]
@@ -83,15 +84,15 @@ def _layout(ground: Ground, highest_m: float) -> go.Layout:
 
 
 def _ground(ground: Ground) -> Any:
-    shares = np.linspace(0.0, 1.0, len(style.GROUND))
-    scale = [[float(share), colour] for share, colour in zip(shares, style.GROUND, strict=True)]
+    shares = np.linspace(0.0, 1.0, len(LIGHT.ground))
+    scale = [[float(share), colour] for share, colour in zip(shares, LIGHT.ground, strict=True)]
     return go.Surface(
         x=_rounded(ground.x_m * KM, 3),
         y=_rounded(ground.y_m * KM, 3),
         z=_rounded(ground.z_m, 1),
-        colorscale=[scale[0], [1.0, style.GROUND[0]]] if ground.level else scale,
+        colorscale=[scale[0], [1.0, LIGHT.ground[0]]] if ground.level else scale,
         showscale=False,
-        contours={"z": {"show": not ground.level, "color": style.FAINT, "width": 1}},
+        contours={"z": {"show": not ground.level, "color": LIGHT.faint, "width": 1}},
         hovertemplate="ground %{z:.0f} m<extra></extra>",
         name="ground",
     )

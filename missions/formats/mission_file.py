@@ -5,11 +5,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from missions.autopilot import Autopilot
 from missions.commands import LAST_NAV, LOCAL_FRAMES, Command, Frame
 from missions.errors import InputError
 from missions.formats.files import read_text
 from missions.formats.qgc_plan import home_item
-from missions.formats.qgc_plan_reader import ComplexItems, read_plan
+from missions.formats.qgc_plan_reader import ComplexItems, autopilot_of, read_plan
 from missions.formats.waypoints_reader import read_waypoints
 from missions.mission import MissionItem, degrees_to_e7
 from missions.vehicle_plan import Plan
@@ -27,11 +28,13 @@ class MissionFile:
         path: of the file.
         plan: mission, fence and rally points; item 0 is a plain home position.
         notes: what was read otherwise than it stands in the file, or left out, a line each.
+        autopilot: whose dialect it says that it is in; None when it does not say.
     """
 
     path: Path
     plan: Plan
     notes: tuple[str, ...]
+    autopilot: Autopilot | None = None
 
 
 def read_mission_file(
@@ -48,9 +51,11 @@ def read_mission_file(
         InputError: the file cannot be read; the message names the line, the place in the JSON, or the item.
     """
     notes: list[str] = []
+    autopilot = None
     beginning = read_text(path).lstrip()
     if beginning.startswith(("{", "//", "/*")):
         plan = read_plan(path, home=home, complex_items=complex_items, note=notes.append)
+        autopilot = autopilot_of(path)
     elif beginning.startswith("QGC"):
         plan = Plan(read_waypoints(path, home=home))
     else:
@@ -61,7 +66,7 @@ def read_mission_file(
     for seq, item in enumerate(plan.mission.items[1:], start=1):
         if (reason := _misplaced(item)) is not None:
             raise InputError(f"{path}: item {seq} (command {item.command}): {reason}")
-    return MissionFile(path, replace(plan, mission=plan.mission.with_home(plain)), tuple(notes))
+    return MissionFile(path, replace(plan, mission=plan.mission.with_home(plain)), tuple(notes), autopilot)
 
 
 def home_at(text: str) -> MissionItem:

@@ -8,6 +8,7 @@ import math
 from pathlib import Path
 from typing import Any, Literal
 
+from missions.autopilot import Autopilot
 from missions.commands import LAST_FRAME, LAST_NAV, Command, Frame
 from missions.fence import NO_FENCE
 from missions.formats.files import read_text
@@ -65,6 +66,18 @@ def read_plan(
         NO_FENCE if fence is None else read_fence_section(reader, fence),
         () if root.get("rallyPoints") is None else read_rally_section(reader, root["rallyPoints"]),
     )
+
+
+def autopilot_of(path: Path) -> Autopilot | None:
+    """Whose dialect a plan says that it is in; None when it does not say, or says another.
+
+    Raises:
+        InputError: as `read_plan`.
+    """
+    reader = JsonReader(path, unheard)
+    section, _ = _mission_section(reader, reader.table(parse_json(read_text(path), path), "the file"))
+    number = section.get("firmwareType", section.get("MAV_AUTOPILOT"))
+    return next((one for one in Autopilot if one.mav_autopilot == number), None)
 
 
 def _mission_section(reader: JsonReader, root: dict[str, Any]) -> tuple[dict[str, Any], str]:

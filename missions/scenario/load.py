@@ -16,6 +16,8 @@ from missions.scenario.model import Files, Scenario
 
 _log = logging.getLogger(__name__)
 
+SHOWN = 5
+"""Problems of a scenario that are told at once."""
 _REASONS = {
     "missing": "is missing",
     "greater_than": "must be > {gt:g}",
@@ -86,7 +88,7 @@ def parse_scenario(text: str, label: str, folder: Path = Path(), raster: Path | 
         raster: an absolute path or one from `folder`, read in place of the one that the scenario names.
 
     Raises:
-        InputError: with the first problem (and how many more there are).
+        InputError: with the first problems, and how many more there are.
     """
     try:
         data = tomllib.loads(text)
@@ -97,15 +99,16 @@ def parse_scenario(text: str, label: str, folder: Path = Path(), raster: Path | 
     except ValidationError as error:
         # What is unknown first: it is often why something else is missing.
         details = sorted(error.errors(), key=lambda detail: detail["type"] != "extra_forbidden")
-        raise InputError(_first(label, [_describe(detail) for detail in details])) from None
+        raise InputError(_told(label, [_describe(detail) for detail in details])) from None
     if found := list(problems(scenario)):
-        raise InputError(_first(label, found))
+        raise InputError(_told(label, found))
     return scenario
 
 
-def _first(label: str, reasons: list[str]) -> str:
-    more = f" (and {len(reasons) - 1} more)" if len(reasons) > 1 else ""
-    return f"{label}: {reasons[0]}{more}"
+def _told(label: str, reasons: list[str]) -> str:
+    """The problems in one line; no more of them than people mend at once."""
+    more = f" (and {len(reasons) - SHOWN} more)" if len(reasons) > SHOWN else ""
+    return f"{label}: {'; '.join(reasons[:SHOWN])}{more}"
 
 
 def _describe(detail: ErrorDetails) -> str:

@@ -55,9 +55,12 @@ def test_errors_name_file_key_and_reason(old: str, new: str, message: str) -> No
     assert message in error_of(RADARS.replace(old, new, 1))
 
 
-def test_further_problems_are_counted() -> None:
-    text = RADARS.replace("radius_m = 1500.0", "radius_m = 0", 2)
-    assert error_of(text).endswith("(and 1 more)")
+def test_several_problems_are_told_together_and_those_after_the_fifth_are_counted() -> None:
+    two = error_of(RADARS.replace("radius_m = 1500.0", "radius_m = 0", 2))
+    assert two == "radars.toml: radars[0].radius_m: must be > 0, got 0; radars[1].radius_m: must be > 0, got 0"
+    many = error_of(RADARS.replace("[[vehicles]]", "[[vehicles]]\nwings = 2"))
+    assert many.count("unknown key") == 5
+    assert many.endswith(" more)")
 
 
 def test_broken_toml_names_the_line() -> None:
