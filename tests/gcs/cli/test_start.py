@@ -1,10 +1,10 @@
-"""An order to vehicles in the air goes out at once: no planner, compiler or schema is loaded first."""
+"""An order to vehicles in the air goes out at once: no planner, compiler or scenario is loaded first."""
 
 import subprocess
 import sys
 from collections.abc import Callable
 
-HEAVY = ("numba", "scipy", "pydantic", "matplotlib", "planner")
+HEAVY = ("numba", "scipy", "matplotlib", "planner", "missions.scenario")
 SHOWN = f"""
 import atexit, sys
 from gcs.main import main
