@@ -1,4 +1,4 @@
-"""The tables that commands print for people; they fit 80 columns."""
+"""The tables that commands print for people; they fit 80 columns. An order to vehicles must not wait for a planner."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -8,19 +8,21 @@ from typing import TYPE_CHECKING, Any
 from rich.markup import escape
 from rich.table import Table
 
-from missions.scenario import Scenario
-from planner.formation_plan import FormationPlan
-from planner.standing import Standing, standings
-from planner.verify import VerificationReport
 from sitl.services.links import LOOPBACK
-from sitl.swarm import Swarm
 
 if TYPE_CHECKING:
     from gcs.companion.connected_flight import Arrival
+    from missions.scenario import Scenario
+    from planner.formation_plan import FormationPlan
+    from planner.standing import Standing
+    from planner.verify import VerificationReport
+    from sitl.swarm import Swarm
 
 
-def plan_table(plan: FormationPlan, scenario: Scenario) -> Table:
+def plan_table(plan: "FormationPlan", scenario: "Scenario") -> Table:
     """What each UAV's path costs, how far it is from the best known (of that UAV alone), and how long it is."""
+    from planner.standing import standings
+
     table = _table(
         f"Plan of {plan.scenario}, {plan.method}, seed {plan.seed}, in {plan.plan_s:.2f} s, verified",
         ["UAV", "f km", "f / line", "gap", "length", "terrain", "radar", "altitude"],
@@ -40,7 +42,7 @@ def plan_table(plan: FormationPlan, scenario: Scenario) -> Table:
     return table
 
 
-def planned_table(report: VerificationReport, plan: FormationPlan, scenario: Scenario) -> Table:
+def planned_table(report: "VerificationReport", plan: "FormationPlan", scenario: "Scenario") -> Table:
     """What each UAV is to fly: figures that an operator compares with what the aircraft can do."""
     table = _table(
         "To be flown",
@@ -60,7 +62,7 @@ def planned_table(report: VerificationReport, plan: FormationPlan, scenario: Sce
     return table
 
 
-def _gap(standing: Standing) -> str:
+def _gap(standing: "Standing") -> str:
     """Per cent above the best known; below it, by how much, when that shows."""
     if standing.gap is None:
         return "-"
@@ -215,7 +217,7 @@ def link_table(metrics: dict[str, Any]) -> Table | None:
     return table
 
 
-def endpoint_table(name: str, swarm: Swarm) -> Table:
+def endpoint_table(name: str, swarm: "Swarm") -> Table:
     """Where each endpoint can be reached."""
     table = _table(f"{name}: {len(swarm.endpoints)} vehicles", ["vehicle", "TCP server", "UDP socket", "process"])
     for endpoint in swarm.endpoints.values():
@@ -229,7 +231,7 @@ def endpoint_table(name: str, swarm: Swarm) -> Table:
     return table
 
 
-def ways_to_connect(swarm: Swarm, stations: Sequence[tuple[str, int]], state: Path) -> Iterator[str]:
+def ways_to_connect(swarm: "Swarm", stations: Sequence[tuple[str, int]], state: Path) -> Iterator[str]:
     """How the usual stations reach a swarm, and where its vehicles keep what they know."""
     (host, port), *_ = stations
     tcp_port = next(endpoint.ready.tcp_port for endpoint in swarm.endpoints.values() if endpoint.ready)
