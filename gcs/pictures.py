@@ -22,7 +22,7 @@ from gcs.run_folder import RunFolder, make_run_folder
 from gcs.watch import VehicleStatus
 from missions.altitude_frame import AltitudeFrame
 from missions.formats.mission_file import read_mission_file
-from missions.scenario import load_scenario
+from missions.scenario import load_scenario, read_scenario_text
 from planner.plan import plan
 from sitl.config import Arm
 
@@ -85,8 +85,9 @@ def _shrink(source: Path, target: Path) -> None:
 
 def _flown(name: str, arm: Arm, out: Path) -> tuple[RunFolder, Series]:
     """Plan and fly a shipped scenario."""
-    scenario = load_scenario(name)
+    (text, _), scenario = read_scenario_text(name), load_scenario(name)
     run, planned = make_run_folder(out, name), plan(scenario)
+    run.write_plan(text, scenario, planned)
     options = FlightOptions(delay_s=scenario.formation.delay_s, arm=arm)
 
     def show_nothing(statuses: list[VehicleStatus]) -> None:
