@@ -127,7 +127,7 @@ def test_a_flight_is_seen_and_steered_from_its_page(
         page.locator("input[inputmode=decimal]:visible").first.fill("1")
         page.locator("input[inputmode=decimal]:visible").first.press("Enter")
         press(page, "Inject")
-        expect(page.get_by_text("corrections: 1 s later, 0 % lost")).to_be_visible()
+        expect(page.get_by_text(re.compile("corrections:? 1 s later, 0 % lost"))).to_be_visible()
         open_tab(page, "Vehicles")
         expect(link_of(page, 1)).to_have_text("1.20 s")
         open_tab(page, "Network")
