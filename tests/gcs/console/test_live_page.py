@@ -185,4 +185,5 @@ def test_a_flight_is_seen_and_steered_from_its_page(
     assert f"Run:     {run}\n" in printed
     metrics = json.loads((run / "metrics.json").read_text())
     assert [vehicle["lost_s"] is not None for vehicle in metrics["vehicles"]] == [False, False, True]
+    assert any(event["sysid"] == 2 and "RTL" in event["what"] for event in metrics["events"])
     assert (run / "logs" / "2.tlog").stat().st_size > 0
