@@ -4,6 +4,7 @@ import asyncio
 import concurrent.futures
 import html
 import time
+import traceback
 from collections import deque
 from collections.abc import Callable, Coroutine
 from typing import Any
@@ -170,6 +171,10 @@ class Page:
             result = await work
         except (InputError, TransferError, concurrent.futures.CancelledError) as error:
             self.tell(f"{what}: {error}")
+            return
+        except Exception as error:  # nobody else would see it
+            self.tell(f"{what}: {type(error).__name__}: {error}")
+            traceback.print_exc()
             return
         for line in [result] if isinstance(result, str) else result or [what]:
             self.tell(line)

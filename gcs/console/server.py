@@ -1,6 +1,7 @@
 """The web server of a console: viser's, behind a door."""
 
 import contextlib
+import errno
 import io
 import socket
 from collections.abc import Iterator
@@ -11,6 +12,8 @@ import websockets.asyncio.server
 
 from gcs.console.door import Door
 from missions.errors import InputError
+
+LAST_PORT = 65535
 
 
 def open_server(host: str, port: int, token: str | None) -> viser.ViserServer:
@@ -24,11 +27,7 @@ def open_server(host: str, port: int, token: str | None) -> viser.ViserServer:
     Raises:
         InputError: nobody can listen there.
     """
-    try:
-        family = socket.AF_INET6 if ":" in host else socket.AF_INET
-        socket.create_server((host, 0), family=family).close()  # viser would try for ever
-    except OSError as error:
-        raise InputError(f"--host {host}: {error.strerror or error}; name an address of this machine") from None
+    port = _free_port(host, port)  # viser would try for ever
     with _guarded(Door(token)) as served, _quiet():
         server = viser.ViserServer(host=host, port=port, verbose=False)
     if not served:
@@ -41,6 +40,20 @@ def close_server(server: viser.ViserServer) -> None:
     """Serve no more."""
     with _quiet():
         server.stop()
+
+
+def _free_port(host: str, first: int) -> int:
+    """The first port from this one on that is free; 0 for any. Raises InputError when nobody can listen there."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    for port in range(first, LAST_PORT + 1):
+        try:
+            socket.create_server((host, port), family=family).close()
+        except OSError as error:
+            if error.errno not in (errno.EADDRINUSE, errno.EACCES):
+                raise InputError(f"--host {host}: {error.strerror or error}; name an address of this machine") from None
+        else:
+            return port
+    raise InputError(f"--port {first}: taken, and all after it, too; choose another, or 0 for any")
 
 
 @contextlib.contextmanager

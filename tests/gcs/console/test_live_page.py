@@ -127,7 +127,7 @@ def test_a_flight_is_seen_and_steered_from_its_page(
         page.locator("input[inputmode=decimal]:visible").first.fill("1")
         page.locator("input[inputmode=decimal]:visible").first.press("Enter")
         press(page, "Inject")
-        expect(page.get_by_text("corrections: 1 s later, 0 % lost")).to_be_visible()
+        expect(page.get_by_text(re.compile("corrections:? 1 s later, 0 % lost"))).to_be_visible()
         open_tab(page, "Vehicles")
         expect(link_of(page, 1)).to_have_text("1.20 s")
         open_tab(page, "Network")
@@ -185,4 +185,5 @@ def test_a_flight_is_seen_and_steered_from_its_page(
     assert f"Run:     {run}\n" in printed
     metrics = json.loads((run / "metrics.json").read_text())
     assert [vehicle["lost_s"] is not None for vehicle in metrics["vehicles"]] == [False, False, True]
+    assert any(event["sysid"] == 2 and "RTL" in event["what"] for event in metrics["events"])
     assert (run / "logs" / "2.tlog").stat().st_size > 0

@@ -27,6 +27,13 @@ def test_a_port_that_is_taken_leads_to_the_next(
         assert port < found < port + 1000
 
 
+def test_after_the_last_port_there_is_no_other(monkeypatch: pytest.MonkeyPatch, free_port: Callable[[], int]) -> None:
+    port = free_port()
+    monkeypatch.setattr("gcs.console.server.LAST_PORT", port)
+    with socket.create_server((LOOPBACK, port)), pytest.raises(InputError, match=f"--port {port}: taken"):
+        open_server(LOOPBACK, port, None)
+
+
 def test_two_consoles_on_one_port_are_two(serve_pages: Callable[..., viser.ViserServer]) -> None:
     first = serve_pages()
     second = serve_pages(port=first.get_port())
