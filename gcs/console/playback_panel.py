@@ -36,7 +36,7 @@ class PlaybackPanel:
             if button.visible != visible:
                 button.visible = visible
         if abs(self._time.value - self._recording.t_s) > STEP_S:
-            set_value(self._time, self._recording.t_s)
+            set_value(self._time, round(self._recording.t_s, 1))
 
     def _moved(self, event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
         """Go where somebody has moved the slider, unless it was the recording that did."""
