@@ -24,11 +24,11 @@ def find_browser() -> str | None:
     return next((path for name in BROWSERS if (path := shutil.which(name))), None)
 
 
-async def take_picture(run: FlownRun, at_s: float, browser: str, path: Path) -> None:
+async def take_picture(run: FlownRun, logs: Path, at_s: float, browser: str, path: Path) -> None:
     """Show a flight as it was at some time, and keep what is seen."""
     server = open_server(LOOPBACK, 0, None)
     until = asyncio.Event()
-    showing = asyncio.create_task(show_recording(server, run, until, at_s))
+    showing = asyncio.create_task(show_recording(server, run, logs, until, at_s))
     try:
         async with async_playwright() as playwright:
             chromium = await playwright.chromium.launch(

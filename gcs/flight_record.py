@@ -24,6 +24,8 @@ LOST = "lost: "
 """Begins what of an event tells that a vehicle was lost, and why."""
 INTERVENTION = "console: "
 """Begins what of an event tells that somebody who steered has done it: no seed makes it happen again."""
+DISTURBANCE = f"{INTERVENTION}corrections "
+"""The same, of all corrections."""
 
 
 @dataclass(frozen=True)

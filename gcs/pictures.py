@@ -55,7 +55,7 @@ def _console(run: Path, picture: Path) -> None:
         print(f"{picture}: not renewed, since there is no Chromium here", file=sys.stderr)
         return
     flown = read_flown_run(run)
-    asyncio.run(take_picture(flown, 0.4 * flown.series.tracks.t_s[-1], browser, picture))
+    asyncio.run(take_picture(flown, run / "logs", 0.4 * flown.series.tracks.t_s[-1], browser, picture))
     _shrink(picture, picture)
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import viser
 
     from gcs.cli.planning import Source
+    from gcs.flight import Cockpit
     from gcs.flight_record import FlightRecord
 
 PORT = 8080
@@ -99,10 +100,11 @@ def _show(web: "Web", run: Path) -> None:
 
     from gcs.console.console import show_recording
     from gcs.report_page import read_flown_run
+    from gcs.run_folder import RunFolder
 
     async def show() -> None:
         with web.serving() as server:
-            await show_recording(server, flown, until_interrupted())
+            await show_recording(server, flown, RunFolder(run).logs, until_interrupted())
 
     flown = read_flown_run(run)
     asyncio.run(show())
@@ -158,9 +160,12 @@ def _fly(web: "Web", what: str, speed: float, delay: float | None, seed: int | N
     options = FlightOptions(delay_s=delay_s, speed=clock_speed(speed, real_time=False))
 
     async def flight() -> "FlightRecord":
-        until = until_interrupted()
         with web.serving() as server:
-            steer = steering(server, scenario, plan, speed, until)
+            farewell = f"The flight has ended: `skein console {run.path}` shows it again, `skein report` tells of it"
+
+            async def steer(cockpit: "Cockpit") -> None:  # an earlier Ctrl-C is no end of a flight, and interrupts
+                await steering(server, scenario, plan, speed, until_interrupted(), farewell)(cockpit)
+
             return await fly_plan(scenario, plan, run, options, output.progress.print, lambda _: None, steer)
 
     record = asyncio.run(flight())

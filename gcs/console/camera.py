@@ -30,25 +30,29 @@ class Follower:
     def __init__(self, server: viser.ViserServer) -> None:
         self._server = server
         self._place: FloatArray | None = None
+        self._size = 1.0
+        self._near: set[int] = set()
 
     def begin(self, place: FloatArray, size: float) -> None:
         """Go near to an aircraft of this size."""
-        self._place = place.copy()
-        for client in self._server.get_clients().values():
-            with client.atomic():
-                client.camera.position = place + NEAR * size
-                client.camera.look_at = place
+        self._place, self._size = place.copy(), size
+        self._near.clear()
+        self.follow(place)
 
     def follow(self, place: FloatArray) -> None:
-        """It is there now."""
+        """It is there now. A browser that has come since goes there, too."""
         if self._place is None:
             return
         moved = place - self._place
-        if not moved.any():
-            return
         self._place = place.copy()
-        for client in self._server.get_clients().values():
-            client.camera.position = client.camera.position + moved  # what it looks at moves with it
+        for number, client in self._server.get_clients().items():
+            if number not in self._near:
+                self._near.add(number)
+                with client.atomic():
+                    client.camera.position = place + NEAR * self._size
+                    client.camera.look_at = place
+            elif moved.any():
+                client.camera.position = client.camera.position + moved  # what it looks at moves with it
 
     def end(self, *, leave: bool = True) -> None:
         """Follow no longer; with `leave` look at everything again."""

@@ -6,12 +6,14 @@ import numpy as np
 import numpy.typing as npt
 
 from gcs.figures.paths import Ground
-from gcs.figures.scene import EXAGGERATIONS, HEIGHT_SHARE
+from gcs.figures.scene import EXAGGERATIONS
 
 FloatArray = npt.NDArray[np.float64]
 
 SIDE = 10.0
 """The longer side of what is shown, in units of the scene: what a browser's camera is made for."""
+HEIGHT_SHARE = 0.2
+"""How high it is drawn, at the most, as a share of that side: hills are to look like hills."""
 SMALLEST_M = 1000.0
 """Vehicles that stand together are not shown any larger."""
 

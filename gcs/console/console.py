@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import numpy as np
 import viser
@@ -11,6 +12,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from gcs.console.fleet_pilots import FleetPilots
 from gcs.console.helm import Helm
 from gcs.console.live import Live
+from gcs.console.logged_modes import read_modes
 from gcs.console.page import FEW, Page
 from gcs.console.place import Place, place_of, unknown_place
 from gcs.console.present import present
@@ -22,6 +24,7 @@ from gcs.report_page.flown_run import FlownRun
 from gcs.transfers.errors import TransferError
 from gcs.transfers.message_interval import set_message_interval
 from gcs.vehicle_link import VehicleLink
+from gcs.watch import VehicleStatus
 from missions.errors import InputError
 from missions.frame import LocalFrame
 from missions.scenario import Scenario
@@ -38,15 +41,25 @@ STREAM_S = 0.25
 """Between two of them, wall time."""
 USUAL_STREAM_S = 1.0
 """What vehicles do unless asked, their time."""
+FAREWELL_S = 0.2
+"""For the last word to reach the browsers."""
 POLL_S = 0.25
 """How often a swarm is asked for its links."""
 
 
 async def show_recording(
-    server: viser.ViserServer, run: FlownRun, until: asyncio.Event, at_s: float | None = None
+    server: viser.ViserServer, run: FlownRun, logs: Path, until: asyncio.Event, at_s: float | None = None
 ) -> None:
-    """Show a flight that is over until the event is set; from its beginning, or as it was at some time."""
-    source = Recording(run)
+    """Show a flight that is over until the event is set; from its beginning, or as it was at some time.
+
+    Args:
+        server: of the page.
+        run: that was flown.
+        logs: the folder of its telemetry logs, where there are any.
+        until: the end.
+        at_s: where the recording stands still; None to play it.
+    """
+    source = Recording(run, {sysid: read_modes(logs / f"{sysid}.tlog", sysid) for sysid in run.truths})
     if at_s is not None:
         source.t_s, source.playing = at_s, False
     page = Page(server, place_of(run.scenario, run.plan), source, Helm())
@@ -54,7 +67,12 @@ async def show_recording(
 
 
 def steering(
-    server: viser.ViserServer, scenario: Scenario, plan: FormationPlan, speed: float, until: asyncio.Event
+    server: viser.ViserServer,
+    scenario: Scenario,
+    plan: FormationPlan,
+    speed: float,
+    until: asyncio.Event,
+    farewell: str = "The flight has ended",
 ) -> Steer:
     """Who shows a flight of a plan, and lets users steer it, until the event is set.
 
@@ -63,6 +81,7 @@ def steering(
         scenario, plan: that are flown.
         speed: that the flight begins with; 0 for as fast as it goes.
         until: the end.
+        farewell: what the page says then.
     """
 
     async def steer(cockpit: Cockpit) -> None:
@@ -82,14 +101,16 @@ def steering(
                 server,
                 place_of(scenario, plan),
                 source,
-                Helm(FleetPilots(cockpit.fleet, helm.note), helm, helm),
+                Helm(FleetPilots(cockpit.fleet, helm.note, lambda: source.lost), helm, helm),
                 end=until.set,
             )
 
             def also() -> None:
-                source.lost = {status.sysid: status.lost for status in cockpit.statuses if status.lost is not None}
-                arrived = sum(status.arrived for status in cockpit.statuses)
-                source.doing = f"{arrived} of {len(sysids)} arrived" if arrived else "flying"
+                lost = {status.sysid: status.lost for status in cockpit.statuses if status.lost is not None}
+                for sysid in lost.keys() - source.lost.keys():
+                    page.tell(f"vehicle {sysid} lost: {lost[sysid].removeprefix(f'vehicle {sysid}: ')}")
+                source.lost = lost
+                source.doing = _doing(cockpit.statuses)
 
             background = [
                 asyncio.create_task(_poll_links(source, helm)),
@@ -100,8 +121,19 @@ def steering(
             finally:
                 for task in background:
                     task.cancel()
+                page.bid_farewell(farewell)
+                await asyncio.sleep(FAREWELL_S)
 
     return steer
+
+
+def _doing(statuses: Sequence[VehicleStatus]) -> str:
+    """How far a flight is; it lasts until somebody ends it."""
+    arrived = sum(status.arrived for status in statuses)
+    lost = sum(status.lost is not None for status in statuses)
+    if arrived and arrived + lost >= len(statuses):
+        return f"{arrived} of {len(statuses)} arrived: end the flight"
+    return f"{arrived} of {len(statuses)} arrived" if arrived else "flying"
 
 
 async def watch_fleet(

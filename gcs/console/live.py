@@ -14,6 +14,7 @@ from gcs.console.shown_time import ShownTime
 from gcs.console.telemetry import Telemetry
 from gcs.fleet import Fleet
 from gcs.flight_modes import mode_name
+from gcs.operations import is_armed
 from gcs.vehicle_link import SILENCE_S, VehicleLink
 from missions.frame import LocalFrame
 from missions.reference import Reference
@@ -24,6 +25,8 @@ FloatArray = npt.NDArray[np.float64]
 
 REMEMBERED = 3000
 """Points of a curve; every second one goes when there are more."""
+VALID_MS = 5000
+"""Of a value that is told each second, in the vehicle's time."""
 NO_TOTAL = 0xFFFF
 """Of MISSION_CURRENT: there is no mission."""
 
@@ -62,7 +65,7 @@ class Live:
         self.doing = "live"
         self._fleet = fleet
         self._stack = stack
-        self._values: dict[tuple[int, str], float] = {}
+        self._values: dict[tuple[int, str], tuple[int, float]] = {}
         self._names = dict(names)
         self._references = references
         self._edges = tuple(edges)
@@ -93,6 +96,7 @@ class Live:
             tuple(tracks),
             np.array([position for position, _ in states]).reshape(-1, 3),
             np.array([attitude for _, attitude in states]).reshape(-1, 3),
+            frozenset(self.lost),
         )
         return self._moment
 
@@ -130,7 +134,7 @@ class Live:
 
     def _on_message(self, vehicle: VehicleLink, message: Message) -> None:
         if message.get_type() == "NAMED_VALUE_FLOAT":
-            self._values[vehicle.sysid, str(message.name)] = message.value
+            self._values[vehicle.sysid, str(message.name)] = (vehicle.simulated_ms, message.value)
         else:
             self._telemetry.on_message(vehicle.sysid, vehicle, message)
 
@@ -182,22 +186,28 @@ class Live:
 
     def _shift_s(self, sysid: int) -> float:
         """By how much the swarm's clock is ahead of the time since the launch."""
-        return self._values.get((sysid, "FormShift"), 0.0)
+        return self._values.get((sysid, "FormShift"), (0, 0.0))[1]
+
+    def _value(self, vehicle: VehicleLink, name: str) -> float | None:
+        """What a vehicle has said of itself lately: out of the formation it says no more."""
+        said_ms, value = self._values.get((vehicle.sysid, name), (0, math.nan))
+        fresh = vehicle.simulated_ms - said_ms < VALID_MS
+        return value if fresh and math.isfinite(value) else None
 
     def _row(self, sysid: int, vehicle: VehicleLink) -> Row:
         name = self._names.get(sysid, "")
-        if (reason := self.lost.get(sysid)) is not None:
-            return Row(sysid, name, "lost", link=reason, well=False)
-        heartbeat, hud = vehicle.latest.get("HEARTBEAT"), vehicle.latest.get("VFR_HUD")
+        if sysid in self.lost:
+            return Row(sysid, name, "lost", well=False)
+        hud = vehicle.latest.get("VFR_HUD")
         current, navigation = vehicle.latest.get("MISSION_CURRENT"), vehicle.latest.get("NAV_CONTROLLER_OUTPUT")
-        error_m = self._values.get((sysid, "FormErr"))
+        error_m = self._value(vehicle, "FormErr")
         if error_m is None and navigation is not None:
             error_m = navigation.xtrack_error
         silent = vehicle.silent_s > SILENCE_S
         return Row(
             sysid=sysid,
             name=name,
-            mode=mode_name(heartbeat.custom_mode, vehicle.autopilot) if heartbeat is not None else "",
+            mode=_mode(vehicle),
             item=None if current is None else (current.seq, current.total if 0 < current.total < NO_TOTAL else None),
             speed_m_s=None if hud is None else hud.airspeed,
             altitude_m=None if hud is None else hud.alt,
@@ -210,3 +220,11 @@ class Live:
         ages = [age for (_, receiver), age in (self.ages_s or {}).items() if receiver == sysid]
         known = [age for age in ages if age is not None]
         return f"{max(known):.2f} s" if known else ""
+
+
+def _mode(vehicle: VehicleLink) -> str:
+    """What a vehicle does, as its heartbeat has it."""
+    if "HEARTBEAT" not in vehicle.latest:
+        return ""
+    mode = mode_name(vehicle.latest["HEARTBEAT"].custom_mode, vehicle.autopilot)
+    return mode if is_armed(vehicle) else f"{mode}, disarmed"

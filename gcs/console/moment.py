@@ -30,12 +30,14 @@ class Moment:
         sysids: of the vehicles; rows below are in their order.
         position_m: (n, 3) in the local frame; NaN where it is not known.
         attitude_rad: (n, 3) roll to the right, pitch up, and heading anticlockwise from east.
+        lost: of the vehicles, those that are where they were seen last.
     """
 
     t_s: float
     sysids: tuple[int, ...]
     position_m: FloatArray
     attitude_rad: FloatArray
+    lost: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ class OrderPanel:
         self._sysids: dict[str, int] = {}
         self._choice = gui.add_dropdown("Vehicle", (ALL,))
         self._choice.on_update(lambda _: self._chosen())
-        self._follow = gui.add_checkbox("Follow", initial_value=False, hint="Fly along with it")
+        self._follow = gui.add_checkbox("Follow", initial_value=False)
         self._follow.on_update(lambda _: self._chosen())
         if pilots is not None:
             orders = gui.add_button_group(

@@ -86,10 +86,10 @@ class Page:
         with tabs.add_tab("Vehicles", viser.Icon.PLANE):
             self._table = gui.add_html("")
             if self._place.ground is not None:  # else nobody knows of a formation
-                gui.add_html(_legend(self._place))
+                gui.add_html(_legend(self._place, told=helm.pilots is None or helm.network is not None))
             self._orders = OrderPanel(gui, helm.pilots, self.do, self._choose, self._set_follow)
-        with tabs.add_tab("Plots", viser.Icon.CHART_LINE):
-            self._plots = Plots(gui, self._source.duration_s if isinstance(self._source, Recording) else None)
+        plots = tabs.add_tab("Plots", viser.Icon.CHART_LINE)
+        self._plots = Plots(gui, plots, self._source.duration_s if isinstance(self._source, Recording) else None)
         self._network = None
         if helm.network is not None:
             with tabs.add_tab("Network", viser.Icon.ACCESS_POINT):
@@ -155,6 +155,12 @@ class Page:
         if self._clock is not None:
             self._clock.show()
 
+    def bid_farewell(self, line: str) -> None:
+        """Say last what has become of it: browsers keep it when there is no server any more."""
+        self.tell(line)
+        self._status.content = _status(self._t_s, "ended")
+        self._server.flush()
+
     def tell(self, line: str) -> None:
         """Say what has happened."""
         stamp = time.strftime("%H:%M:%S")
@@ -202,11 +208,12 @@ def _status(t_s: float, state: str) -> str:
     )
 
 
-def _legend(place: Place) -> str:
-    """What the colours of the links mean."""
+def _legend(place: Place, *, told: bool) -> str:
+    """What the colours of the links mean: ages of corrections, where the swarm tells them."""
+    what = "age of the newest correction" if told else "silence of the vehicle last heard longest ago"
     colours = ",".join(f"rgb{colour}" for colour in (FRESH, LATE, STALE))
     return (
-        '<div style="font-size:11px;padding:4px 8px"><div>link: age of the newest correction</div>'
+        f'<div style="font-size:11px;padding:4px 8px"><div>link: {what}</div>'
         f'<div style="height:6px;border-radius:3px;background:linear-gradient(90deg,{colours})"></div>'
         '<div style="display:flex;justify-content:space-between"><span>0 s</span>'
         f"<span>{place.margin_s:.2f} s, margin</span><span>{place.stale_s:.2f} s, stale</span></div></div>"

@@ -41,7 +41,7 @@ class PlaybackPanel:
     def _moved(self, event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
         """Go where somebody has moved the slider, unless it was the recording that did."""
         if event.client is not None:
-            self._recording.t_s = float(event.target.value)
+            self._recording.t_s = min(max(float(event.target.value), 0.0), self._recording.duration_s)
 
     def _set_playing(self, playing: bool) -> None:
         if playing and self._recording.t_s >= self._recording.duration_s:

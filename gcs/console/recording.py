@@ -7,11 +7,14 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from gcs.console.logged_modes import Modes, mode_at
 from gcs.console.moment import Course, Moment, Row, ShownLink
+from gcs.flight_record import DISTURBANCE
 from gcs.report_page.flown_run import FlownRun
 from gcs.truth import CHI, GAMMA, H, V, X
 from missions.airframe import GRAVITY_M_S2
 from missions.reference import Reference
+from sitl.modes import Mode
 from sitl.ticks import TICK_S
 
 FloatArray = npt.NDArray[np.float64]
@@ -25,6 +28,7 @@ class Recording:
 
     Args:
         run: that was flown.
+        modes: by sysid, in which modes, where that was logged.
 
     Attributes:
         t_s: the moment that is shown.
@@ -32,11 +36,16 @@ class Recording:
         speed: simulated seconds a second.
     """
 
-    def __init__(self, run: FlownRun) -> None:
+    def __init__(self, run: FlownRun, modes: Mapping[int, Modes] | None = None) -> None:
         self.t_s = 0.0
         self.playing = True
         self.speed = 10.0
         self._run = run
+        self._modes = modes or {}
+        self._items = {uav.sysid: len(uav.mission) - 1 for uav in run.plan.uavs}
+        self._frame_m = run.scenario.frame.alt_m
+        changed_s = [event.t_s for event in run.metrics.events if event.what.startswith(DISTURBANCE)]
+        self._delay_known_until_s = min(changed_s, default=math.inf)
         self._sysids = tuple(sorted(run.truths))
         self._vehicles = {vehicle.sysid: vehicle for vehicle in run.metrics.vehicles}
 
@@ -65,10 +74,11 @@ class Recording:
     def links(self) -> Sequence[ShownLink]:
         """The graph as it was used. In lockstep corrections are as old as they were delayed; in real time, on average.
 
-        Who has arrived counts no more.
+        Who has arrived counts no more. From when they were disturbed on, nobody has recorded how old they were.
         """
         now = [used.edges for used in self._run.metrics.graph if used.t_s <= self.t_s]
-        return [ShownLink(edge, self._delay_s) for edge in (now[-1] if now else ())]
+        delay_s = self._delay_s if self.t_s < self._delay_known_until_s else None
+        return [ShownLink(edge, delay_s) for edge in (now[-1] if now else ())]
 
     def rows(self) -> Sequence[Row]:
         """Of the table."""
@@ -95,7 +105,11 @@ class Recording:
             "t_s": series.tracks.t_s[ticks],
             "error_m": series.error.rms_m[ticks],
             "separation_m": series.separation_m[ticks],
-            "delay_s": np.where(series.error.edges[ticks] > 0, self._delay_s, np.nan),
+            "delay_s": np.where(
+                (series.error.edges[ticks] > 0) & (series.tracks.t_s[ticks] < self._delay_known_until_s),
+                self._delay_s,
+                np.nan,
+            ),
         }
 
     def _state(self, sysid: int) -> FloatArray:
@@ -117,17 +131,19 @@ class Recording:
         tick = min(round(self.t_s / TICK_S), len(truth) - 1)
         reference = self._run.series.references[sysid]
         arrived = vehicle.arrival_s is not None and self.t_s >= vehicle.arrival_s
+        mode = mode_at(self._modes.get(sysid, []), self.t_s) or Mode.AUTO.name
+        on_plan = mode == Mode.AUTO.name and not arrived
         passed = int(np.searchsorted(reference.corner_time_s, self.t_s, side="right"))
         last = len(reference.corner_seq) - 1
         return Row(
             sysid=sysid,
             name=vehicle.name,
-            mode="arrived" if arrived else "AUTO",
-            item=(reference.corner_seq[min(passed, last)], reference.corner_seq[last]),
+            mode="arrived" if arrived and mode == Mode.AUTO.name else mode,
+            item=(self._items[sysid] if passed > last else reference.corner_seq[passed], self._items[sysid]),
             speed_m_s=float(truth[tick, V]),
-            altitude_m=float(truth[tick, H]),
-            error_m=None if arrived else _ahead_m(truth[tick, X : H + 1], reference, self.t_s),
-            link="" if arrived else f"{self._delay_s:.2f} s",
+            altitude_m=float(truth[tick, H]) + self._frame_m,
+            error_m=_ahead_m(truth[tick, X : H + 1], reference, self.t_s) if on_plan else None,
+            link=f"{self._delay_s:.2f} s" if on_plan and self.t_s < self._delay_known_until_s else "",
         )
 
 

@@ -3,7 +3,7 @@
 import asyncio
 
 from gcs.flight import Cockpit
-from gcs.flight_record import INTERVENTION, Event
+from gcs.flight_record import DISTURBANCE, INTERVENTION, Event
 from gcs.swarm_network import SwarmNetwork
 from sitl.ticks import TICK_S
 
@@ -43,9 +43,9 @@ class SwarmHelm:
     async def disturb(self, delay_s: float, loss: float) -> str:
         """See `NetworkHelm`."""
         tick = await asyncio.to_thread(self._network.disturb, delay_s, loss, self._flying())
-        what = f"corrections {delay_s:g} s later, {100.0 * loss:g} % lost"
-        self._cockpit.interventions.append(Event(tick * TICK_S, None, f"{INTERVENTION}{what}, from tick {tick} on"))
-        return f"{what}, from {tick * TICK_S:.2f} s on"
+        what = f"{delay_s:g} s later, {100.0 * loss:g} % lost"
+        self._cockpit.interventions.append(Event(tick * TICK_S, None, f"{DISTURBANCE}{what}, from tick {tick} on"))
+        return f"corrections {what}, from {tick * TICK_S:.2f} s on"
 
     async def kill(self, sysid: int) -> str:
         """See `NetworkHelm`."""

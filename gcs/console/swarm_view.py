@@ -46,6 +46,7 @@ class SwarmView:
         self._limits_s = (place.margin_s, place.stale_s)
         self._on_click = on_click
         self._sysids: tuple[int, ...] = ()
+        self._lost: frozenset[int] = frozenset()
         self._places = np.empty((0, 3))
         self._pairs: list[tuple[int, int]] = []
         self._aircraft: viser.BatchedMeshHandle | None = None
@@ -60,8 +61,12 @@ class SwarmView:
         self._places[unknown] = FAR_BELOW
         turned = quaternions(moment.attitude_rad).astype(np.float32)
         if moment.sysids != self._sysids or self._aircraft is None:
+            self._lost = moment.lost
             self._begin(moment.sysids, turned)
         else:
+            if moment.lost != self._lost:
+                self._lost = moment.lost
+                self._aircraft.batched_colors = self._colours()
             self._aircraft.batched_positions = self._places.astype(np.float32)
             self._aircraft.batched_wxyzs = turned
         self._label(names, unknown)
@@ -109,7 +114,7 @@ class SwarmView:
             self._links = None
         if pairs:
             self._links = self._scene.add_line_segments(
-                "/swarm/links", self._link_points(), colours, thickness=1.5, thickness_units="screen"
+                "/swarm/links", self._link_points(), colours, thickness=2.5, thickness_units="screen"
             )
 
     def place_of(self, sysid: int) -> FloatArray | None:
@@ -136,7 +141,7 @@ class SwarmView:
             turned,
             self._places.astype(np.float32),
             batched_scales=np.full(len(sysids), self.size, dtype=np.float32),
-            batched_colors=np.array([rgb(self._colour_of(sysid)) for sysid in sysids], dtype=np.uint8),
+            batched_colors=self._colours(),
             flat_shading=True,
             side="double",
             lod="off",
@@ -145,6 +150,11 @@ class SwarmView:
         )
         aircraft.on_click(lambda event: self._clicked(event.instance_index))
         self._aircraft = aircraft
+
+    def _colours(self) -> npt.NDArray[np.uint8]:
+        """Of the aircraft; those that are lost are grey."""
+        colours = [LOST if sysid in self._lost else rgb(self._colour_of(sysid)) for sysid in self._sysids]
+        return np.array(colours, dtype=np.uint8)
 
     def _clicked(self, index: int | None) -> None:
         if index is not None and index < len(self._sysids):

@@ -8,13 +8,15 @@ from matplotlib.colors import to_hex
 
 from gcs.console.moment import Row
 
-HEADINGS = ("vehicle", "mode", "item", "m/s", "alt m", "error m", "link")
+HEADINGS = ("vehicle", "mode", "item", "m/s", "AMSL m", "error m", "link")
 STYLE = (
     "<style>.skein{width:100%;border-collapse:collapse;font-size:11px;font-variant-numeric:tabular-nums}"
     ".skein th{font-weight:600;text-align:right;padding:2px 4px;opacity:.75;white-space:nowrap}"
     ".skein td{text-align:right;padding:2px 4px;white-space:nowrap;border-top:1px solid rgba(128,128,128,.25)}"
     ".skein :is(th,td):nth-child(-n+2){text-align:left}"
     ".skein tr.chosen td{background:rgba(128,128,128,.22)}.skein td.ill{color:#d6453d;font-weight:600}"
+    ".skein-all{max-height:330px;overflow-y:auto}.skein thead th{position:sticky;top:0;background:inherit}"
+    ".skein td:last-child{max-width:76px;overflow:hidden;text-overflow:ellipsis}"
     ".skein i{display:inline-block;width:9px;height:9px;border-radius:5px;margin-right:5px}</style>"
 )
 
@@ -29,7 +31,8 @@ def table_html(rows: Sequence[Row], colour_of: Callable[[int], Any], selected: i
     """
     head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)
     body = "".join(_row(row, to_hex(colour_of(row.sysid)), row.sysid == selected) for row in rows)
-    return f'{STYLE}<table class="skein"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    table = f'<table class="skein"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    return f'{STYLE}<div class="skein-all">{table}</div>'
 
 
 def _row(row: Row, colour: str, selected: bool) -> str:

@@ -29,6 +29,8 @@ TURNS = np.linspace(0.0, 2.0 * np.pi, 49)
 PATHS = "/world/path"
 """What is planned, in the tree of the scene."""
 PATH_POINTS = 400
+GREY = 0.84
+"""Between white and black, that planned paths are mixed with: aircraft and trails are to stand out."""
 FAINT = (120, 120, 120)
 
 
@@ -46,7 +48,7 @@ def draw_world(scene: viser.SceneApi, place: Place) -> None:
         _surroundings(scene, chart, place.environment, float(place.ground.z_m.min()))
     for sysid, points in place.paths.items():
         kept = points[np.unique(np.linspace(0, len(points) - 1, PATH_POINTS).astype(np.int64))]
-        faint = 0.5 * np.array(to_rgb(place.colour_of(sysid))) + 0.5
+        faint = 0.4 * np.array(to_rgb(place.colour_of(sysid))) + 0.6 * GREY
         draw_line(scene, f"{PATHS}/{sysid}", chart.units(kept), rgb(faint), 1.5)
     draw_scale(scene, chart)
 

@@ -78,7 +78,7 @@ def test_vehicles_that_are_there_appear_and_obey(
         page = visit(console.address)
         modes = page.locator("table.skein tbody td:nth-child(2)")
         loiter = page.get_by_role("button", name="LOITER", exact=True)
-        expect(modes).to_have_text(["MANUAL", "MANUAL"])
+        expect(modes).to_have_text(["MANUAL, disarmed", "MANUAL, disarmed"])
         expect(page.get_by_role("button", name="Hold", exact=True)).to_have_count(0)
         expect(page.get_by_role("tab", name="Network")).to_have_count(0)
         loiter.click()

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 
 from gcs.campaign.axes import with_values
 from gcs.console.recording import Recording
+from gcs.flight_record import DISTURBANCE, Event
 from gcs.report_page import FlownRun, read_flown_run
 from gcs.truth import CHI, GAMMA, H, V, X
 from missions.scenario import Scenario
@@ -89,7 +91,7 @@ def test_rows_say_what_each_does_at_that_moment(recording: Recording, flown: Flo
     assert [(row.sysid, row.name, row.mode) for row in rows] == [(i, recording.names[i], "AUTO") for i in (1, 2, 3)]
     tick = round(10.0 / TICK_S)
     assert rows[0].speed_m_s == flown.truths[1][tick, V]
-    assert rows[0].altitude_m == flown.truths[1][tick, H]
+    assert rows[0].altitude_m == flown.truths[1][tick, H] + flown.scenario.frame.alt_m
     assert rows[0].link == "0.20 s"
     assert rows[0].error_m == pytest.approx(0.0, abs=5.0)
     first, last = rows[0].item or (0, 0)
@@ -99,6 +101,29 @@ def test_rows_say_what_each_does_at_that_moment(recording: Recording, flown: Flo
     assert {row.mode for row in rows} == {"arrived"}
     assert rows[0].item == (last, last)
     assert first < (last or 0)
+
+
+def test_a_mode_that_was_logged_stands_for_the_plan_and_then_there_is_no_error_of_it(flown: FlownRun) -> None:
+    recording = Recording(flown, {1: [(0.0, "AUTO"), (20.0, "LOITER")]})
+    recording.t_s, recording.playing = 10.0, False
+    first, *_ = recording.rows()
+    assert (first.mode, first.error_m is None, first.link) == ("AUTO", False, "0.20 s")
+    recording.t_s = 30.0
+    first, second, _ = recording.rows()
+    assert (first.mode, first.error_m, first.link) == ("LOITER", None, "")
+    assert second.mode == "AUTO"
+
+
+def test_nobody_knows_how_old_corrections_were_once_they_were_disturbed(flown: FlownRun) -> None:
+    disturbed = Event(20.0, None, f"{DISTURBANCE}1 s later, 0 % lost, from tick 500 on")
+    recording = Recording(replace(flown, metrics=replace(flown.metrics, events=(disturbed,))))
+    recording.playing = False
+    for t_s, age_s, text in ((10.0, 0.2, "0.20 s"), (30.0, None, "")):
+        recording.t_s = t_s
+        assert {link.age_s for link in recording.links()} == {age_s}
+        assert {row.link for row in recording.rows()} == {text}
+    delays = recording.course().delay_s[recording.course().t_s >= 20.0]
+    assert np.isnan(delays).all()
 
 
 def test_a_trail_ends_where_it_is_and_begins_so_long_before(recording: Recording, flown: FlownRun) -> None:
