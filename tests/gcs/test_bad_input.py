@@ -13,12 +13,14 @@ MOUNTAINS, _ = read_scenario_text("mountains")
 
 
 def complaint(*arguments: object) -> str:
-    """The one line that a command prints before it exits with 2."""
+    """The one line that a command complains in before it exits with 2; what it did until then, it may tell before."""
     command = [sys.executable, "-m", "gcs.main", *map(str, arguments)]
     result = subprocess.run(command, capture_output=True, text=True, timeout=60)
     assert result.returncode == 2, result.stderr
     assert result.stdout == ""
-    (line,) = result.stderr.strip().splitlines()
+    *steps, line = result.stderr.strip().splitlines()
+    assert line.startswith("skein: ")
+    assert not [step for step in steps if step.startswith(("skein: ", "Traceback", " "))]
     return line
 
 
