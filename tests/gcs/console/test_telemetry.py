@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -51,7 +52,7 @@ def test_positions_land_where_the_frame_says(x_m: float, y_m: float, alt_mm: int
 def test_velocities_are_turned_from_north_east_down() -> None:
     told = Told(1)
     told.tell(1, 10.0, vx=300, vy=2000, vz=-100)
-    (before, _), (after, _) = (told.telemetry.tracks[1].at(t_s) for t_s in (10.0, 11.0))
+    before, after = (np.array(told.telemetry.tracks[1].at(t_s)[0]) for t_s in (10.0, 11.0))
     assert after - before == pytest.approx((20.0, 3.0, 1.0))
 
 
