@@ -125,6 +125,7 @@ def _watch(web: "Web", source: "Source | None", urls: list[str], signing_key: Pa
         async with Fleet(station_logs(), signing=signing_of(signing_key), announce=output.progress.print) as fleet:
             for url in urls:
                 fleet.attach(await open_link(url))
+            output.progress.print(f"Listening on {', '.join(urls)}", markup=False)
             await fleet.discover(HEARD_WAIT_S)
             scenario, plan = (None, None) if source is None else (source.scenario, source.plan)
             with web.serving() as server:
