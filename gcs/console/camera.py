@@ -54,9 +54,9 @@ class Follower:
             elif moved.any():
                 client.camera.position = client.camera.position + moved  # what it looks at moves with it
 
-    def end(self, *, leave: bool = True) -> None:
-        """Follow no longer; with `leave` look at everything again."""
-        if self._place is not None and leave:
+    def end(self) -> None:
+        """Follow no longer, and look at everything again."""
+        if self._place is not None:
             for client in self._server.get_clients().values():
                 with client.atomic():
                     client.camera.position = OVERVIEW

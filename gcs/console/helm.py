@@ -29,10 +29,6 @@ class ClockHelm(Protocol):
     def held(self) -> bool:
         """Whether they stand still."""
 
-    @property
-    def speed(self) -> float:
-        """Simulated seconds a second; 0 for as fast as they go."""
-
     async def hold(self) -> None:
         """Let them stand still. Raises InputError."""
 

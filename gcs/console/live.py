@@ -78,11 +78,6 @@ class Live:
     def names(self) -> Mapping[int, str]:
         return {sysid: self._names.get(sysid, "") for sysid in self._fleet.vehicles}
 
-    @property
-    def rate(self) -> float:
-        """Simulated seconds a second."""
-        return self._time.rate
-
     def advance(self, passed_s: float) -> Moment:
         """The moment to show."""
         self._telemetry.follow(self._fleet.vehicles, self._listen)
